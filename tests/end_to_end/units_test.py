@@ -12,6 +12,7 @@ import unittest
 from pathlib import Path
 
 import h5py
+import numpy as np
 
 from trough_program import EndToEndTest
 
@@ -52,6 +53,17 @@ class Units(EndToEndTest):
                     if "properties" in known:
                         for section in keys if isinstance(keys, list) else [keys]:
                             self.assertLessEqual(set(section), set(known["properties"]))
+
+    def test_the_chute_of_init_has_a_step(self):
+        """A face across the whole floor, upright, not at an end, and higher than a grain."""
+        self.call("init", "chute", cwd=self.folder)
+        numbers = [list(map(float, line.split()[1:])) for line in (self.folder / "chute.stl").read_text().splitlines() if line.strip().startswith("vertex")]
+        corners = np.reshape(numbers, (-1, 3, 3))
+        length, width, _ = corners.max(axis=(0, 1))
+        face = corners[np.ptp(corners[:, :, 0], axis=1) == 0]
+        self.assertTrue(np.all((face[:, :, 0] > 0) & (face[:, :, 0] < length)))
+        area = np.abs(np.cross(face[:, 1] - face[:, 0], face[:, 2] - face[:, 0])[:, 0]).sum() / 2
+        self.assertGreater(area, width * 3.3)  # the largest grains, mm
 
     def test_a_file_of_init_gives_tonnes_per_hour(self):
         """m' = v m / (L W) times 300 mm; the layer is that of the file in kg, m and s."""
