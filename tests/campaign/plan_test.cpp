@@ -33,6 +33,11 @@ TEST(CaseId, IsTwelveHexadecimalDigitsAndAlwaysTheSame) {
     EXPECT_EQ(id_of(example_campaign), id);
 }
 
+// Where this changes, what was simulated before is simulated again: say so in CHANGES.md.
+TEST(CaseId, OfTodaysCampaignIsTheIdOfToday) {
+    EXPECT_EQ(id_of(core::read_file(GOLD_CAMPAIGN)), "7b0015b5c98c");
+}
+
 TEST(CaseId, DoesNotDependOnNameFolderCommentsOrUnits) {
     std::string const id = id_of(example_campaign);
     EXPECT_EQ(id_of(with("pvc-horizontal", "another")), id);
