@@ -39,12 +39,7 @@ WITHOUT_MOST = ("stages", "screen")  # these refuse measure.max_packings
 class Kinds(EndToEndTest):
     def setUp(self):
         super().setUp()
-        slurm = PrivateSlurm(cpus=2)
-        slurm.__enter__()
-        self.addCleanup(slurm.__exit__)
-        os.environ["SLURM_CONF"] = slurm.environment["SLURM_CONF"]
-        self.addCleanup(os.environ.pop, "SLURM_CONF", None)
-        self.slurm = slurm
+        self.slurm = PrivateSlurm.for_test(self, cpus=2)
         (self.folder / "own.stl").write_bytes(own_trough_test.stl(own_trough_test.FLOOR + own_trough_test.WALLS))
 
     def write_kind(self, kind, end=""):

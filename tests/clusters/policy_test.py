@@ -89,11 +89,7 @@ class GrowingPolicy(EndToEndTest):
         self.kill_and_finish(campaign, killed)
         self.assertEqual(self.check_growth(killed), expected)
 
-        slurm = PrivateSlurm(cpus=2)
-        slurm.__enter__()
-        self.addCleanup(slurm.__exit__)
-        self.environment["SLURM_CONF"] = os.environ["SLURM_CONF"] = slurm.environment["SLURM_CONF"]
-        self.addCleanup(os.environ.pop, "SLURM_CONF", None)
+        self.environment["SLURM_CONF"] = PrivateSlurm.for_test(self, cpus=2).environment["SLURM_CONF"]
         on_cluster = self.folder / "cluster"
         self.kill_and_finish(self.write(RUN_ON_SLURM), on_cluster)
         self.assertEqual(self.check_growth(on_cluster), expected)

@@ -64,11 +64,7 @@ class Precision(EndToEndTest):
         self.run_campaign(campaign)
         self.assertEqual(self.check_table(), expected)
 
-        slurm = PrivateSlurm(cpus=2)
-        slurm.__enter__()
-        self.addCleanup(slurm.__exit__)
-        os.environ["SLURM_CONF"] = slurm.environment["SLURM_CONF"]
-        self.addCleanup(os.environ.pop, "SLURM_CONF", None)
+        PrivateSlurm.for_test(self, cpus=2)
         campaign = self.write(text=RUN_ON_SLURM)
         on_cluster = self.folder / "cluster"
         command = [*self.run_arguments(campaign, on_cluster), "--wait"]

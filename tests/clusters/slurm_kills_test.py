@@ -35,12 +35,7 @@ class SlurmKills(EndToEndTest):
     def setUp(self):
         super().setUp()
         self.random = random.Random(SEED)
-        slurm = PrivateSlurm(cpus=2)
-        slurm.__enter__()
-        self.addCleanup(slurm.__exit__)
-        os.environ["SLURM_CONF"] = slurm.environment["SLURM_CONF"]
-        self.addCleanup(os.environ.pop, "SLURM_CONF", None)
-        self.slurm = slurm
+        self.slurm = PrivateSlurm.for_test(self, cpus=2)
         self.campaign = self.folder / "campaign.toml"
         self.campaign.write_text(campaign_text(CHANGES, SWEEP) + RUN_ON_SLURM)
 
