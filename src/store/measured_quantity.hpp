@@ -1,5 +1,7 @@
 #pragma once
 
+#include "measure/stage_means.hpp"
+#include "store/material_quantities.hpp"
 #include "store/quantity.hpp"
 
 #include <string_view>
@@ -36,6 +38,26 @@ void add_measured(std::vector<Quantity>& rows, std::string_view name, std::strin
                     OverPackings::nothing,
                     {narrow}});
 }
+
+/// Mean and half-width over the packings of a number that each row of a table has.
+class MeasuredColumn {
+  public:
+    explicit MeasuredColumn(double confidence) : confidence_(confidence) {}
+
+    void add(measure::EnsembleNumber const& value) {
+        means.push_back(value.mean());
+        half_widths.push_back(value.half_width(confidence_));
+    }
+    void put_into(std::vector<CaseValues>& columns) const {
+        columns.emplace_back(means);
+        columns.emplace_back(half_widths);
+    }
+
+    std::vector<double> means = {}, half_widths = {};
+
+  private:
+    double confidence_;
+};
 
 /// A column of the terminal's table that is left out when no case has a value.
 constexpr TerminalView terminal_when_known(std::string_view heading, std::string_view unit) {

@@ -3,6 +3,8 @@
 #include "measure/mass_flow.hpp"
 #include "store/measured_quantity.hpp"
 
+#include <cmath>
+
 namespace vibrotrough::store {
 namespace {
 
@@ -22,6 +24,49 @@ PackingTable flow_column(std::string_view name, std::string_view units, std::str
                 return p.series.open.*member;
             })};
 }
+
+using PackingColumn = std::vector<double> const& (*)(PackingRecord const&);
+
+std::vector<double> const& place_of(PackingRecord const& packing) {
+    return packing.open.along.x;
+}
+
+std::vector<double> const& depth_of(PackingRecord const& packing) {
+    return packing.open.along.depth;
+}
+
+std::vector<double> const& speed_of(PackingRecord const& packing) {
+    return packing.open.along.speed;
+}
+
+std::vector<double> const& residence_of(PackingRecord const& packing) {
+    return packing.open.residence;
+}
+
+/// The column of the first packing that has it, of an open trough. All packings have the same rows.
+std::vector<double> first_of(Case record, PackingColumn column) {
+    if (!is_open(record.scenario)) return {};
+    for (PackingRecord const& packing : record.packings)
+        if (!column(packing).empty()) return column(packing);
+    return {};
+}
+
+/// Mean and half-width of each row, over the packings that have a number there.
+MeasuredColumn over_packings(Case record, PackingColumn column, std::size_t rows) {
+    MeasuredColumn measured(record.scenario.measure.confidence);
+    for (std::size_t row = 0; row < rows; ++row) {
+        measure::EnsembleNumber number;
+        for (PackingRecord const& packing : record.packings) {
+            std::vector<double> const& values = column(packing);
+            if (row < values.size() && !std::isnan(values[row])) number.values.push_back(values[row]);
+        }
+        measured.add(number);
+    }
+    return measured;
+}
+
+constexpr auto half_width_meaning =
+    "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one packing";
 
 }  // namespace
 
@@ -54,6 +99,51 @@ std::vector<PackingTable> const& open_tables() {
          packing_field([](auto& p) -> auto& { return p.open.residence; })},
     };
     return tables;
+}
+
+std::vector<Entry> const& along_trough_entries() {
+    static std::vector<Entry> const entries{
+        {"x", "m", "Middle of a bin along the trough, from the back wall; only of open troughs"},
+        {"depth", "m",
+         "Height of the layer in the bin if it had settled, mean over the cycles that count and the "
+         "packings"},
+        {"depth_half_width", "m", half_width_meaning},
+        {"velocity", "m/s",
+         "Mean velocity of its grains along the trough, mean over the packings with grains there; NaN where "
+         "none has"},
+        {"velocity_half_width", "m/s", half_width_meaning},
+    };
+    return entries;
+}
+
+std::vector<CaseValues> along_trough_table(Case record) {
+    std::vector<double> const x = first_of(record, place_of);
+    if (x.empty()) return {};
+    std::vector<CaseValues> columns{x};
+    over_packings(record, depth_of, x.size()).put_into(columns);
+    over_packings(record, speed_of, x.size()).put_into(columns);
+    return columns;
+}
+
+std::vector<Entry> const& residence_times_entries() {
+    static std::vector<Entry> const entries{
+        {"share", "1", "0, 0.01 ... 1 of the grains that left an open trough"},
+        {"time", "s",
+         "They had been in it no longer, mean over the packings in which at least 20 grains left"},
+        {"time_half_width", "s", half_width_meaning},
+    };
+    return entries;
+}
+
+std::vector<CaseValues> residence_times_table(Case record) {
+    std::size_t const rows = first_of(record, residence_of).size();
+    if (rows == 0) return {};
+    std::vector<double> shares;
+    for (std::size_t row = 0; row < rows; ++row)
+        shares.push_back(static_cast<double>(row) / static_cast<double>(rows - 1));
+    std::vector<CaseValues> columns{shares};
+    over_packings(record, residence_of, rows).put_into(columns);
+    return columns;
 }
 
 std::optional<double> measured_mass_per_area(Case record) {

@@ -105,6 +105,9 @@ void add_packings(std::vector<NameInFile>& names) {
     for (Entry const& entry : screening_entries()) add(names, "screening/", real_type, "cycles + 1", entry);
     for (Entry const& entry : partition_cycles_entries())
         add(names, "partition_cycles/", real_type, "sizes * (cycles + 1)", entry);
+    for (Entry const& entry : along_trough_entries()) add(names, "along_trough/", real_type, "bins", entry);
+    for (Entry const& entry : residence_times_entries())
+        add(names, "residence_times/", real_type, "101", entry);
     for (Entry const& entry : impact_spectrum_entries())
         add(names, "impact_spectrum/", real_type, "classes", entry);
     for (MassFlowColumn const& column : mass_flow_columns())

@@ -290,6 +290,8 @@ std::string result_bytes(CaseRecord const& record) {
     add_case_table(file, "partition", partition_entries(), partition_table(record));
     add_case_table(file, "screening", screening_entries(), screening_table(record));
     add_case_table(file, "partition_cycles", partition_cycles_entries(), partition_cycles_table(record));
+    add_case_table(file, "along_trough", along_trough_entries(), along_trough_table(record));
+    add_case_table(file, "residence_times", residence_times_entries(), residence_times_table(record));
     add_case_table(file, "impact_spectrum", impact_spectrum_entries(), impact_spectrum_table(record));
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
         add_tables(file, i, record.packings[i], packing_series());

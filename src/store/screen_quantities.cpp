@@ -1,6 +1,5 @@
 #include "store/screen_quantities.hpp"
 
-#include "measure/stage_means.hpp"
 #include "prepare/screen.hpp"
 #include "store/measured_quantity.hpp"
 
@@ -45,27 +44,7 @@ double opening_of(Case record) {
     return *record.scenario.screen.opening;
 }
 
-/// Mean and half-width over the packings of a number that each row of a table has.
-class MeasuredColumn {
-  public:
-    explicit MeasuredColumn(double confidence) : confidence_(confidence) {}
-
-    void add(EnsembleNumber const& value) {
-        means.push_back(value.mean());
-        half_widths.push_back(value.half_width(confidence_));
-    }
-    void put_into(std::vector<CaseValues>& columns) const {
-        columns.emplace_back(means);
-        columns.emplace_back(half_widths);
-    }
-
-    std::vector<double> means = {}, half_widths = {};
-
-  private:
-    double confidence_;
-};
-
-/// The same for a share, with the ends of its interval. Student's interval knows no bounds: an end beyond 0
+/// A column of shares, with the ends of their intervals. Student's interval knows no bounds: an end beyond 0
 /// or 1, which no share can have, is moved there.
 class MeasuredShare : public MeasuredColumn {
   public:

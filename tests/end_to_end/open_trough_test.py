@@ -49,6 +49,9 @@ class OpenTrough(EndToEndTest):
         with h5py.File(self.results()[0]) as file:
             flow, packings = file["flow/1"][()], file["packings"][()]
             residence, along = file["residence/1"]["time"], file["along/1"][()]
+            depths, stays = ([file[f"{table}/{number + 1}"][name] for number in range(len(packings))] for table, name in (("along", "depth"), ("residence", "time")))
+            np.testing.assert_allclose(file["along_trough"]["depth"], np.mean(depths, axis=0), rtol=1e-12)
+            np.testing.assert_allclose(file["residence_times"]["time"], np.mean(stays, axis=0), rtol=1e-12)
         self.assertTrue(np.all(flow["held"][0] + flow["fed"] == flow["held"] + np.cumsum(flow["left"])))
         lost = flow["held_mass"][0] + flow["fed_mass"] - flow["held_mass"] - np.cumsum(flow["left_mass"])
         self.assertLess(np.abs(lost).max(), 1e-12 * flow["fed_mass"][-1])
@@ -73,8 +76,9 @@ class OpenTrough(EndToEndTest):
         campaign = self.write_campaign({**OPEN, "measure.packings": 1, "measure.min_cycles": 20, "measure.max_cycles": 20})
         one, other = self.results_with_and_without_a_kill(campaign, 8, wanted=None)
         with h5py.File(one) as file, h5py.File(other) as same:
-            for table in ("flow/1", "along/1", "residence/1"):
-                np.testing.assert_array_equal(file[table][()], same[table][()], table)
+            for table in ("flow/1", "along/1", "residence/1", "along_trough", "residence_times"):
+                for name in file[table].dtype.names:
+                    np.testing.assert_array_equal(file[table][name], same[table][name], f"{table}/{name}")
 
     def test_lost_grains_are_noticed(self):
         """The negative control: a deck that takes grains out of the middle without telling."""

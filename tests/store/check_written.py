@@ -99,6 +99,18 @@ def check_mass_flow(file):
     assert math.isclose(flow["half_width"][0], wanted, rel_tol=1e-12)
 
 
+def check_open_trough(file):
+    """Means and Student's t over the packings that have a number: two of 12 and 16 mm, of 0.3 and 0.4 m/s, of 1.5 and 2.5 s."""
+    along, times = file["along_trough"], file["residence_times"]
+    student = math.tan(0.95 * math.pi / 2)  # for one degree of freedom
+    assert list(along["x"]) == [0.01, 0.02, 0.03, 0.04] and np.allclose(along["depth"], [0.014, 0.012, 0.011, 0.01], rtol=1e-12)
+    assert np.allclose(along["velocity"], [0.35, 0.3, 0.31, 0.32], rtol=1e-12)
+    assert np.allclose(along["depth_half_width"], [0.002 * student, 0, 0, 0], rtol=1e-12)
+    assert np.allclose(along["velocity_half_width"], [0.05 * student, 0, 0, math.nan], rtol=1e-12, equal_nan=True)
+    assert np.allclose(times["share"], np.arange(101) / 100) and list(times["time"][99:]) == [1.5, 2]
+    assert np.allclose(times["time_half_width"][99:], [0, 0.5 * student], rtol=1e-12)
+
+
 def check_result_values(file):
     assert file.attrs["schema_version"] == 2
     assert file.attrs["case"] == "0123456789abcdef"
@@ -138,6 +150,7 @@ def check_result_values(file):
     assert math.isclose(case["gravity_power"], 0.0099 * 9.81 * math.sin(0.05) * wanted["conveying_speed"], rel_tol=1e-13)
     assert math.isclose(case["dissipated_power"], 13.5 * (0.001 + 0.25 / 1024), rel_tol=1e-13)
     check_mass_flow(file)
+    check_open_trough(file)
     assert list(file["phases/1"]["phase"]) == [0.25, 0.5, 0.75, 1.0, 1.25]
     assert list(file["surface/2"]["height"])[-1] > list(file["surface/1"]["height"])[-1]
     # Energies per area and time, and per mass and way; packings with 2 and 2.5, 0.5 and 1.

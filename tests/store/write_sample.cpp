@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <limits>
 
 namespace {
 
@@ -27,6 +28,12 @@ void open(vibrotrough::store::CaseRecord& record) {
         packing.open.along = {{0.01, 0.02, 0.03, 0.04}, {0.012, 0.012, 0.011, 0.01}, {0.3, 0.3, 0.31, 0.32}};
         packing.open.residence.assign(101, 1.5);
     }
+    // The second packing has another depth and speed, no grains in the last bin, and longer stays.
+    auto& second = record.packings.at(1).open;
+    second.along.depth.front() = 0.016;
+    second.along.speed.front() = 0.4;
+    second.along.speed.back() = std::numeric_limits<double>::quiet_NaN();
+    second.residence.back() = 2.5;
 }
 
 /// As if the trough were a screen with openings of 3 mm, on which three of five small grains passed.
