@@ -1,6 +1,6 @@
-"""Each kind of machine on a cluster: an own trough, an open one, a mixture, a drive in stages, and screens with a batch and with a feed. A
-Slurm is killed an engine and the driver under; the campaign comes out as it does on this machine, and its frames, its table and its archive
-are those of that kind.
+"""Each kind of machine on a cluster: an own trough, an open one, a mixture, a drive in stages, screens with a batch and with a feed, and
+what has files of its own, wear and impacts. A Slurm is killed an engine and the driver under; the campaign comes out as it does on this
+machine, and its frames, its table and its archive are those of that kind.
 """
 
 import json
@@ -14,11 +14,13 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
 import fed_screen_test  # noqa: E402
+import impacts_test  # noqa: E402
 import mixture_test  # noqa: E402
 import open_trough_test  # noqa: E402
 import own_trough_test  # noqa: E402
 import screen_test  # noqa: E402
 import stages_test  # noqa: E402
+import wear_test  # noqa: E402
 from private_slurm import RUN_ON_SLURM, PrivateSlurm  # noqa: E402
 from trough_program import PROGRAM, EndToEndTest, campaign_text, engines_in, wait_until, without_wall_time  # noqa: E402
 
@@ -32,6 +34,8 @@ KINDS = {
     "stages": ({**stages_test.DRIVE, **stages_test.PLAN}, stages_test.STAGES, ["stage_speed_m_per_s"]),
     "screen": (screen_test.SCREEN, "", ["screening_efficiency"]),
     "fed screen": (fed_screen_test.FED_SCREEN, "", ["screening_efficiency", "outflow_t_per_h"]),
+    "wear": (wear_test.SHORT, "", ["specific_wear_j_per_t_m"]),
+    "impacts": (impacts_test.SHORT, "", ["impact_power_w_per_kg", "trough_impact_power_w_per_kg"]),
 }
 WITHOUT_MOST = ("stages", "screen")  # these refuse measure.max_packings
 
