@@ -55,6 +55,9 @@ CASE_FIGURES = [
     ("impacts", "How often impacts have which energy"),
     ("partition", "Partition curve of the screen"),
     ("segregation", "Segregation of the materials over time"),
+    ("along", "Depth and speed along the trough"),
+    ("residence", "How long the grains stay in the trough"),
+    ("stages", "Speed over the cycles of the stages"),
 ]
 
 

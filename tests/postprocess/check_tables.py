@@ -1,4 +1,4 @@
-"""The figures of impacts, partition, cycles and segregation: what they draw is what the tables say, and a result without a table gives none.
+"""The figures of impacts, partition, cycles, segregation, open troughs and stages: what they draw is what the tables say, and a result without a table gives none.
 
 usage: check_tables.py POSTPROCESS
 """
@@ -13,6 +13,8 @@ sys.path.insert(0, sys.argv[1])
 import figure_cycles  # noqa: E402
 import figure_residuals  # noqa: E402
 import figure_tables  # noqa: E402
+import figures  # noqa: E402
+import report  # noqa: E402
 
 
 class Source:
@@ -121,11 +123,63 @@ def check_segregation():
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["grains", "fines"]
 
 
+def band_of(axes, number=0):
+    """The corners of a band: those of the upper and the lower line."""
+    return {tuple(corner) for corner in np.round(axes.collections[number].get_paths()[0].vertices, 12)}
+
+
+def check_along():
+    """Two panels over the place in millimetres, each with its band; a place without grains has no speed."""
+    result = {"along_trough/x": np.array([0.01, 0.03, 0.05]), "along_trough/depth": np.array([0.012, 0.01, 0.008]), "along_trough/depth_half_width": np.array([0.001, 0.002, 0.001]),
+              "along_trough/velocity": np.array([0.3, 0.4, np.nan]), "along_trough/velocity_half_width": np.array([0.05, 0.1, np.nan])}  # fmt: skip
+    depth, speed = drawn(figure_tables.plot_along, result).get_figure().axes
+    np.testing.assert_allclose(depth.lines[0].get_data(), [[10, 30, 50], [12, 10, 8]])
+    np.testing.assert_allclose(speed.lines[0].get_data(), [[10, 30, 50], [0.3, 0.4, np.nan]])
+    assert {(10, 11), (10, 13), (30, 8), (30, 12), (50, 7), (50, 9)} <= band_of(depth)
+    assert {(10, 0.25), (10, 0.35), (30, 0.3), (30, 0.5)} <= band_of(speed)
+    assert depth.get_ylim()[0] == speed.get_ylim()[0] == 0
+
+
+def check_residence():
+    """The band lies across: at each share it is as wide as the interval of the time."""
+    result = {"residence_times/share": np.array([0, 0.5, 1]), "residence_times/time": np.array([1.0, 2, 4]), "residence_times/time_half_width": np.array([0.1, 0.2, 0.5]),
+              "case/residence_time": np.array(2.25)}  # fmt: skip
+    axes = drawn(figure_tables.plot_residence, result)
+    np.testing.assert_allclose(axes.lines[0].get_data(), [[1, 2, 4], [0, 0.5, 1]])
+    assert {(0.9, 0), (1.1, 0), (1.8, 0.5), (2.2, 0.5), (3.5, 1), (4.5, 1)} <= band_of(axes)
+    assert list(axes.lines[1].get_xdata()) == [2.25, 2.25]
+    # Where the mean is not known there is no plug flow to compare with; with one packing there is no band.
+    alone = {**result, "case/residence_time": np.array(np.nan), "residence_times/time_half_width": np.full(3, np.nan)}
+    axes = drawn(figure_tables.plot_residence, alone)
+    assert len(axes.lines) == 1 and axes.collections[0].get_paths() == []
+
+
+def check_speed_over_stages():
+    """Every cycle with its band, stages that stand still in grey, and the speed at the end of those that move."""
+    result = {"stage_cycles/time": np.array([0.05, 0.15, 0.25, 0.35]), "stage_cycles/conveying_speed": np.array([0.1, 0.3, 0.2, 0]),
+              "stage_cycles/conveying_speed_half_width": np.array([0.05, 0.1, 0.05, 0.01]), "stages/start": np.array([0, 0.2]), "stages/time": np.array([0.2, 0.2]),
+              "stages/standstill": np.array([0.0, 1]), "stages/conveying_speed": np.array([0.3, 0]), "stages/conveying_speed_half_width": np.array([0.1, 0.01])}  # fmt: skip
+    axes = drawn(figure_tables.plot_stages, result)
+    np.testing.assert_allclose(axes.lines[0].get_data(), [[0.05, 0.15, 0.25, 0.35], [0.1, 0.3, 0.2, 0]])
+    assert {(0.05, 0.05), (0.05, 0.15), (0.15, 0.2), (0.15, 0.4)} <= band_of(axes)
+    points, _, (bars,) = axes.containers[0]
+    assert list(points.get_xdata()) == [0.2] and list(points.get_ydata()) == [0.3]
+    np.testing.assert_allclose([bar[:, 1] for bar in bars.get_segments()], [[0.2, 0.4]])
+    (grey,) = [patch for patch in axes.patches]
+    np.testing.assert_allclose(grey.get_extents().transformed(axes.transData.inverted()).intervalx, [0.2, 0.4])
+    assert [text.get_text() for text in axes.texts] == ["1", "2"]
+
+
 check_impacts()
 check_partition()
 check_partition_through_the_opening()
 check_cycles_are_seen()
 check_stages()
 check_segregation()
-for plot in (figure_tables.plot_impacts, figure_tables.plot_partition, figure_tables.plot_segregation):
+check_along()
+check_residence()
+check_speed_over_stages()
+for plot in (figure_tables.plot_impacts, figure_tables.plot_partition, figure_tables.plot_segregation, figure_tables.plot_along, figure_tables.plot_residence, figure_tables.plot_stages):
     assert drawn(plot, {}) is None
+# What is drawn is in the report.
+assert sorted(figures.KINDS) == sorted(kind for kind, _ in report.FIGURES + report.CASE_FIGURES)

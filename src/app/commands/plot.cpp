@@ -215,10 +215,10 @@ void add_plot(CLI::App& program, int& exit_code) {
     command
         ->add_option("--only", options->only, "Draw only this kind of figure; repeat the option for several")
         // The kinds are named below, with what each shows.
-        ->check(
-            CLI::IsMember({"efficiency", "speed", "mass_flow", "residuals", "budget", "cycles", "portraits",
-                           "spin", "rolling", "profiles", "impacts", "partition", "segregation"})
-                .description(""))
+        ->check(CLI::IsMember({"efficiency", "speed", "mass_flow", "residuals", "budget", "cycles",
+                               "portraits", "spin", "rolling", "profiles", "impacts", "partition",
+                               "segregation", "along", "residence", "stages"})
+                    .description(""))
         ->type_name("KIND")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -272,6 +272,9 @@ void add_plot(CLI::App& program, int& exit_code) {
   impacts     for each case with measure.impacts: how often impacts have which energy
   partition   for each case with a screen: the share of each size that stays
   segregation for each case with several materials: their segregation index over time
+  along       for each open trough: depth and speed along it
+  residence   for each open trough: the distribution of the residence times
+  stages      for each case with stages: the speed over their cycles
 
 With --x and --y, one figure shows any column of 'vibrotrough compare' over any other, with its interval, and for
 speed, efficiency and mass flow what the theory and the rolling-layer law say of the same cases. A column is named as in
