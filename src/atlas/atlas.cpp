@@ -33,11 +33,13 @@ std::vector<Outside> of_another_kind(prepare::PreparedCase const& p) {
     add(s.engine.cohesion > 0, "engine.cohesion", "cohesion");
     add(s.engine.extra != nullptr || s.engine.templates != nullptr, "engine",
         "commands of the engine of your own");
-    add(s.trough.side_wall_friction && s.layer.width < least_width * diameter, "trough.side_wall_friction",
+    // An open trough has walls; smooth ones stand for a piece out of a wide trough.
+    bool const has_walls =
+        p.domain.open ? s.trough.side_wall_friction > 0.0 : s.trough.side_wall_friction.has_value();
+    add(has_walls && s.layer.width < least_width * diameter, "trough.side_wall_friction",
         fmt::format("side walls {:.3g} diameters apart (at least {:g})", s.layer.width / diameter,
                     least_width));
     add(p.domain.has_mesh(), "trough.mesh", "a trough of your own");
-    add(p.domain.open.has_value(), "feed", "an open trough");
     add(p.domain.screen.has_value(), "screen", "a screen");
     add(!p.stages.empty(), "stages", "a drive in stages");
     add(s.trough.waveform || !s.trough.harmonics.empty() || s.trough.along_phase != 0, "trough",
@@ -80,12 +82,45 @@ std::vector<Outside> out_of_range(prepare::PreparedCase const& p, Place const& p
     return all;
 }
 
+/// What is carried over the mass flow of the feed, by a layer of a depth in diameters; NaN without a mean
+/// speed.
+double carried(prepare::PreparedCase const& p, Place place, double depth) {
+    scenario::Scenario const& s = p.scenario;
+    place[depth_input] = depth;
+    double const speed = efficiency_at(place).value_or(NAN) * p.velocity_scale;
+    return bulk_density(s.grains) * s.layer.width * depth * mean_diameter(s) * speed / *s.feed.mass_flow;
+}
+
+/// The depth, in diameters, of the layer that carries the feed; nothing where no layer moves forward. Beyond
+/// what the atlas says anything about, it is the depth at the speed there.
+std::optional<double> fed_depth(prepare::PreparedCase const& p, Place const& place) {
+    auto const [key, least, most] = inputs()[depth_input];
+    double low = least - farthest * (most - least), high = most + farthest * (most - least);
+    double const shallow = carried(p, place, low), deep = carried(p, place, high);
+    if (!(shallow > 0 && deep > 0)) return {};
+    if (shallow > 1) return low / shallow;
+    if (deep < 1) return high / deep;
+    while (high - low > 1e-6) {
+        double const middle = (low + high) / 2;
+        (carried(p, place, middle) < 1 ? low : high) = middle;
+    }
+    return low;
+}
+
 }  // namespace
 
 Answer predict(prepare::PreparedCase const& prepared) {
     Answer answer{{}, {}, {}, of_another_kind(prepared)};
     if (!answer.is_inside()) return answer;
-    Place const place = numbers_of(prepared);
+    Place place = numbers_of(prepared);
+    if (prepared.domain.open) {
+        auto const depth = fed_depth(prepared, place);
+        if (!depth) {
+            answer.outside.push_back({"feed", "a layer that does not move forward"});
+            return answer;
+        }
+        place[depth_input] = *depth;
+    }
     answer.outside = out_of_range(prepared, place);
     if (is_far_outside(place)) return answer;
     auto const value = value_at(place);
@@ -96,16 +131,20 @@ Answer predict(prepare::PreparedCase const& prepared) {
     answer.efficiency = value->efficiency;
     answer.half_width = value->half_width;
     answer.place = place;
+    if (prepared.domain.open) {
+        double const depth = place[depth_input] * mean_diameter(prepared.scenario);
+        answer.fed_depth = Bounded{depth, depth * value->half_width / std::abs(value->efficiency)};
+    }
     return answer;
 }
 
 std::optional<Place> place_of(prepare::PreparedCase const& prepared) {
-    if (!of_another_kind(prepared).empty()) return {};
+    if (prepared.domain.open || !of_another_kind(prepared).empty()) return {};
     return numbers_of(prepared);
 }
 
 std::optional<Effects> effects(prepare::PreparedCase const& prepared) {
-    if (!predict(prepared).is_inside()) return {};
+    if (prepared.domain.open || !predict(prepared).is_inside()) return {};
     constexpr double noticeable = 0.1;  // diameters
     Place const place = numbers_of(prepared);
     Effects found{place[depth_input], {}, {}};

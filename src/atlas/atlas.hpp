@@ -1,5 +1,6 @@
 #pragma once
 
+#include "atlas/layer_load.hpp"
 #include "atlas/value.hpp"
 #include "prepare/prepared_case.hpp"
 
@@ -15,6 +16,8 @@ struct Answer {
     std::optional<double> half_width;  ///< of its 95 % interval
     std::optional<Place> place;        ///< its numbers without a dimension, where it has an efficiency
     std::vector<Outside> outside;      ///< empty: the layer lies inside of the atlas
+    /// m, of an open trough, where it has an efficiency: its layer between feed and edge, if it had settled.
+    std::optional<Bounded> fed_depth = {};
 
     /// Whether the atlas covers the layer.
     bool is_inside() const { return outside.empty(); }
@@ -25,13 +28,17 @@ struct Answer {
 /// spheres depends, whose trend is the rolling-layer law (trend_of() in tables.hpp). The half-width contains
 /// what the layers scatter beyond their own intervals, and their numerical errors.
 ///
-/// A layer of another kind (clumps, several materials, side walls closer than 20 diameters, an open trough,
-/// a drive that is not a sinusoid, ...) has no efficiency. A layer of the same kind with inputs outside of
+/// The layer of an open trough is as deep as its feed makes it: h = Q / (rho_b b v), where the speed v is
+/// that of a layer of the depth h, and rho_b the bulk density. Its half-width is that of h with the interval
+/// of v.
+///
+/// A layer of another kind (clumps, several materials, side walls with friction closer than 20 diameters, a
+/// drive that is not a sinusoid, ...) has no efficiency. A layer of the same kind with inputs outside of
 /// the ranges has one, which is an extrapolation, up to a quarter of a range beyond it.
 Answer predict(prepare::PreparedCase const& prepared);
 
 /// The numbers without a dimension of a layer, in the order of inputs(), whether they lie within the ranges
-/// or not; nothing for a layer of another kind.
+/// or not; nothing for a layer of another kind or of an open trough, whose depth is not given.
 std::optional<Place> place_of(prepare::PreparedCase const& prepared);
 
 /// What single inputs change, by the atlas.
@@ -45,7 +52,7 @@ struct Effects {
     std::optional<SurfaceValue> of_slope;
 };
 
-/// What depth and slope of a layer change; nothing for a layer outside of the atlas.
+/// What depth and slope of a layer change; nothing for a layer outside of the atlas or of an open trough.
 std::optional<Effects> effects(prepare::PreparedCase const& prepared);
 
 }  // namespace vibrotrough::atlas

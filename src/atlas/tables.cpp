@@ -52,14 +52,17 @@ double trend_of(double rolling_layer, double theory) {
     return std::min(rolling_layer, std::max(theory, 1.0));
 }
 
-std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& file) {
+std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& file, LayerModel model) {
     core::CsvReader reader(text, file, format());
     Columns const columns(reader);
     std::vector<SurfacePoint> points;
     while (reader.next()) {
-        points.push_back({columns.text("case"), columns.place(),
-                          trend_of(columns.number("rolling_layer"), columns.number("theory")),
-                          columns.number("efficiency"), columns.number("half_width")});
+        double const law = columns.number("rolling_layer"), theory = columns.number("theory");
+        double const trend = model == LayerModel::rolling_layer ? law
+                             : model == LayerModel::point_mass  ? theory
+                                                                : trend_of(law, theory);
+        points.push_back({columns.text("case"), columns.place(), trend, columns.number("efficiency"),
+                          columns.number("half_width")});
     }
     return points;
 }

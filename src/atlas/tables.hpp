@@ -37,11 +37,19 @@ std::vector<SurfaceInput> const& inputs();
 /// law says up to 1.4 of layers that have 1.0 to 1.15.
 double trend_of(double rolling_layer, double theory);
 
+/// The model whose velocity efficiency is taken for the trend of a layer.
+enum class LayerModel {
+    atlas,          ///< trend_of()
+    rolling_layer,  ///< the law alone
+    point_mass,
+};
+
 /// Reads a table of layers: CSV with the columns `case`, those of inputs(), theory, rolling_layer,
 /// efficiency, half_width, numerical_error, and others that are not read. Lines that begin with # are
 /// comments.
 /// @throws core::CsvError that names line and column
-std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& file);
+std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& file,
+                                      LayerModel model = LayerModel::atlas);
 
 /// Reads another number of such a table, such as added_mass with added_mass_half_width, as points of a
 /// surface without a trend. Layers that have none are left out.

@@ -13,9 +13,6 @@
 namespace vibrotrough::atlas {
 namespace {
 
-/// Further beyond a range than this, in widths of it, the atlas says nothing at all.
-constexpr double farthest = 0.25;
-
 Surface const& surface() {
     static Surface const fitted(inputs(), read_layers(layers_table, "layers.csv"),
                                 read_draws(draws_table, "draws.csv"));

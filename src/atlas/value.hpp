@@ -19,6 +19,9 @@ struct Outside {
     std::string why;   ///< such as "depth 14 (the atlas has 3 to 6)"
 };
 
+/// Further beyond a range than this, in widths of it, the atlas says nothing at all.
+inline constexpr double farthest = 0.25;
+
 /// How many layers were simulated for the atlas.
 int simulated_layers();
 

@@ -80,6 +80,45 @@ TEST(Atlas, DoesNotPredictLayersOfAnotherKind) {
     }
 }
 
+/// The layer of an open trough with smooth walls, by its feed.
+std::string fed(std::string const& mass_flow, std::string const& text = inside_layer) {
+    std::string const open = with("height = \"12 mm\"\n", "", with("36 mm", "200 mm", text));
+    return with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", open) +
+           "[feed]\nmass_flow = \"" + mass_flow + "\"\nlength = \"60 mm\"\n";
+}
+
+// The mass flow of the layer is that of the feed: Q = rho_b b h v. A periodic layer of the same depth has the
+// same efficiency: 1e-5, to which the depth is found, in diameters, times at most 1 per diameter.
+TEST(Atlas, TheFeedMakesTheDepth) {
+    auto const prepared = prepare::prepare_case(single_case(fed("0.25 t/h")));
+    Answer const answer = predict(prepared);
+    ASSERT_TRUE(answer.is_inside()) << answer.outside.front().why;
+    double const depth = answer.fed_depth.value().value, speed = *answer.efficiency * prepared.velocity_scale;
+    EXPECT_NEAR(1400 * 0.58 * 0.018 * depth * speed, 250 / 3600.0, 1e-6);
+    EXPECT_NEAR(answer.fed_depth->half_width / depth, *answer.half_width / *answer.efficiency, 1e-12);
+    Answer const periodic = answer_of(
+        with("height = \"12 mm\"", "height = \"" + std::to_string(1e3 * depth) + " mm\"", inside_layer));
+    EXPECT_NEAR(periodic.efficiency.value(), *answer.efficiency, 1e-5);
+    EXPECT_FALSE(place_of(prepared).has_value());
+}
+
+TEST(Atlas, AFedLayerMayBeTooShallowOrTooDeepForIt) {
+    for (auto const& [flow, low, high] :
+         {std::tuple{"0.02 t/h", 0.1, 0.5}, std::tuple{"0.6 t/h", 7.0, 20.0}}) {
+        Answer const answer = answer_of(fed(flow));
+        EXPECT_FALSE(answer.efficiency.has_value() || answer.fed_depth.has_value()) << flow;
+        ASSERT_EQ(names_outside(fed(flow)), Names{"depth"}) << flow;
+        double const depth = std::stod(answer.outside.front().why.substr(6));
+        EXPECT_GT(depth, low) << flow;
+        EXPECT_LT(depth, high) << flow;
+    }
+    std::string const rough = with("side_wall_friction = 0", "side_wall_friction = 0.2", fed("0.25 t/h"));
+    EXPECT_EQ(names_outside(rough), Names{"trough.side_wall_friction"});
+    std::string const up = with("inclination = \"0 deg\"", "tan_inclination = 0.1", inside_layer);
+    EXPECT_EQ(names_outside(with("throw_number = 2.0", "throw_number = 0.75", fed("0.25 t/h", up))),
+              Names{"feed"});
+}
+
 // The same numbers without a dimension: twice the length and sqrt(2) times the time. Tolerance: rounding.
 TEST(Atlas, DependsOnNumbersWithoutDimension) {
     std::string large = with("diameter = \"3 mm\"", "diameter = \"6 mm\"", inside_layer);

@@ -14,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
 from private_slurm import RUN_ON_SLURM, PrivateSlurm  # noqa: E402
-from trough_program import PROGRAM, EndToEndTest, campaign_text, engines_in, fingerprint, pause, wait_until, without_wall_time  # noqa: E402
+from trough_program import PROGRAM, EndToEndTest, at_night, campaign_text, engines_in, fingerprint, pause, wait_until, without_wall_time  # noqa: E402
 
 SWEEP = {"layer.grains": [60, 70, 80]}
 CHANGES = {"measure.packings": 2}
@@ -122,6 +122,7 @@ class Slurm(EndToEndTest):
         self.run_campaign(campaign, output=local)
         self.assertEqual(through_slurm, without_wall_time(self.table(local)))
 
+    @at_night
     def test_a_controller_that_does_not_answer_is_no_end(self):
         slurm = self.start_slurm(cpus=2)
         campaign = self.write_slurm_campaign(changes={"measure.packings": 1}, sweep=None)
@@ -164,6 +165,7 @@ class Slurm(EndToEndTest):
         self.assertRegex(found[0], rf"Slurm says CANCELLED.* of task {job}_1")
         self.assertRegex(found[1], rf"Slurm says FAILED.* of task {job}_0")
 
+    @at_night
     def test_the_core_hours_that_the_site_counts_stand_beside_our_own(self):
         """Each engine waits, for which the site counts its two cores and we count nothing."""
         slurm = self.start_slurm(cpus=4, accounting=True)
@@ -202,6 +204,7 @@ class Slurm(EndToEndTest):
         self.assertEqual(told["core_time_counted_s"], {"slurm": None})
         self.assertIn("Slurm does not say what it has counted\n", self.call("status", self.output, "--accounting").stdout)
 
+    @at_night
     def test_what_slurm_refuses_is_said_in_one_line(self):
         self.start_slurm(cpus=1)
         for asked, *parts in (
@@ -213,6 +216,7 @@ class Slurm(EndToEndTest):
             self.assertEqual(self.status()["left"], 3)
             self.assertEqual(self.count_submitted(), 0)
 
+    @at_night
     def test_a_site_can_ask_for_more_and_set_up_its_tasks(self):
         slurm = self.start_slurm(cpus=1)
         more = 'extra = ["--comment=from-the-campaign"]\nsetup = ["export GREETING=hello", "echo setup says $GREETING"]\n'
@@ -283,6 +287,7 @@ class Slurm(EndToEndTest):
         self.addCleanup(os.environ.__setitem__, "PATH", path)
         return lambda: dict(collections.Counter(counts.read_text().split()))
 
+    @at_night
     def test_a_campaign_larger_than_the_limits_of_the_array_and_of_the_jobs_ends(self):
         """8 packings where an array may have 3 tasks and Slurm keeps 4 jobs, each of them until 2 s after its end."""
         slurm = self.start_slurm(cpus=2, max_array=4, max_jobs=4, job_age=2)
@@ -310,6 +315,7 @@ class Slurm(EndToEndTest):
         self.assertEqual(self.count_submitted(), 8, "a packing was submitted twice")
         self.assertEqual(self.take_starts(), sorted({f"{case['case']}/packing-{n}" for case in self.table() for n in range(1, 5)}))
 
+    @at_night
     def test_a_task_out_of_time_says_so(self):
         self.start_slurm(cpus=2)
         # Two seconds for a packing that nobody would stop for an hour.

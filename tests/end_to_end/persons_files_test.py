@@ -109,7 +109,7 @@ class PersonsFiles(EndToEndTest):
                  self.output / "campaign.h5", self.output / "campaign.toml", self.output / "engine.json", self.output / "certificate.json")  # fmt: skip
         makers = (os.mkfifo, lambda link: link.symlink_to(pipe))
         commands = (("status",), ("compare",), ("export",), ("plot", "--only", "cycles"), ("report",), ("archive", "--partial", "--output", self.folder / "b.zip"))
-        for path, make, command in sample(itertools.product(paths, makers, commands), 7):
+        for path, make, command in sample(itertools.product(paths, makers, commands), 17):
             path.rename(kept)
             make(path)
             with self.subTest(path=path.name, command=command[0], link=path.is_symlink()):

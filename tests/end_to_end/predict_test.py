@@ -45,6 +45,14 @@ class Predict(EndToEndTest):
         self.assertEqual((cubes["damping"], cubes["power_per_area_w_per_m2"]), (None, None))
         self.assertIn("outside: grains of the shape cube", self.predict(CUBES))
 
+    def test_a_feed_makes_its_depth(self):
+        """The mass flow of the layer is that of the feed: Q = rho_b b h v."""
+        feed = {"layer.grains": None, "layer.length": "200 mm", "trough.side_wall_friction": 0, "feed.mass_flow": "0.2 t/h", "feed.length": "20 mm"}
+        (fed,) = json.loads(self.predict(feed, "--json"))
+        self.assertTrue(fed["inside"], fed)
+        self.assertAlmostEqual(1400 * 0.58 * 0.015 * fed["fed_depth_m"] * fed["speed_m_per_s"], 200 / 3600, delta=1e-6)
+        self.assertIn(f"fed: {1e3 * fed['fed_depth_m']:.3g} +- ", self.predict(feed))
+
     def test_a_wrong_file(self):
         for given, said in ((self.folder / "gone.toml", "there is no such file"), (self.write_campaign({"trough.friction": -1}), "trough.friction")):
             done = self.call("predict", given)

@@ -96,7 +96,7 @@ class Surroundings(EndToEndTest):
 
         answers("run", plain)  # which probes the engine
         places = list(zip(LOCALES, itertools.cycle(VARIABLES)))
-        for name, some in itertools.groupby(sample(itertools.product(["--version", *ARGUMENTS], places), 11), key=lambda pair: pair[0]):
+        for name, some in itertools.groupby(sample(itertools.product(["--version", *ARGUMENTS], places), 23), key=lambda pair: pair[0]):
             ARGUMENTS.setdefault(name, ())
             wanted = answers(name, plain)
             for _, (place, variable) in some:

@@ -18,6 +18,7 @@ except ImportError:
     print("SKIPPED: python3-websocket is not installed")
     sys.exit(77)
 from page_program import ANSWERED, NAME, NEEDS, READY, WORK, number, program
+from trough_program import at_night
 
 CampaignTest, DesignTest = results_test.CampaignTest, results_test.DesignTest  # run with those of this file
 
@@ -110,6 +111,7 @@ class PageTest(unittest.TestCase):
         quantities = json.loads(done.stdout)["quantities"]
         return quantities["mass_flow_per_hour"]["value"] / quantities["conveying_speed"]["value"]
 
+    @at_night
     def test_the_band_has_a_gap_where_the_atlas_ends(self):
         """Atlas and models have bands of their own, and a sentence says from where to where the atlas answers."""
         b = self.browser
@@ -196,6 +198,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(b.text("speed"), "none")
         self.assertIn("runs away", b.text("reason"))
 
+    @at_night
     def test_words_and_units(self):
         b = self.browser
         b.run("(document.getElementById('language').focus(), 1)")
@@ -207,6 +210,7 @@ class PageTest(unittest.TestCase):
         left = b.run("[...document.querySelectorAll('[data-word]')].filter((e) => !e.textContent && e.dataset.word !== 'unit_1').map((e) => e.dataset.word)")
         self.assertEqual(left, [])
 
+    @at_night
     def test_first_answer_and_redraws(self):
         b, times = self.browser, []
         for i in range(7):
@@ -227,6 +231,7 @@ class PageTest(unittest.TestCase):
         # Times are printed and not judged, because other tests keep the cores busy; that no redraw is left out is counted.
         self.assertGreaterEqual(frames["drawn"], 88)
 
+    @at_night
     def test_a_page_whose_theory_is_damaged_says_so(self):
         damaged = WORK / "damaged.html"
         damaged.write_text(re.sub(r'(id="theory">.{1000})[^<]*', r"\1", self.page.read_text(encoding="utf-8")), encoding="utf-8")
@@ -305,6 +310,7 @@ class PageTest(unittest.TestCase):
         self.paste("<img src=x onerror=alert(1)> 3\n")
         self.assertEqual(b.run("document.querySelectorAll('img').length"), 0)
 
+    @at_night
     def test_pictures_follow(self):
         b = self.browser
         b.click("#map", 0.6, 0.4)
@@ -325,6 +331,7 @@ class PageTest(unittest.TestCase):
         self.go("inclination_deg=25&friction=0.2")
         self.assertEqual(b.text("motion-text"), "There is no periodic motion to show.")
 
+    @at_night
     def test_the_makers_rule_is_drawn_for_level_troughs(self):
         """v = 3.81 N S (validation/daesung): proportional to the stroke, so that it is a straight line through the origin."""
         self.browser.wait("document.documentElement.dataset.complete === 'true'")
@@ -338,6 +345,7 @@ class PageTest(unittest.TestCase):
         self.browser.wait("document.documentElement.dataset.complete === 'true'")
         self.assertEqual(self.browser.run(path), "")
 
+    @at_night
     def test_printed_on_one_sheet(self):
         """With the map, which is drawn also where nobody has scrolled to it."""
         map_pixels = "(() => { const c = document.getElementById('map'); return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((x) => x > 0); })()"
@@ -348,6 +356,7 @@ class PageTest(unittest.TestCase):
             self.go(part)
             self.assertEqual(pages_in(self.browser.printed()), 1)
 
+    @at_night
     def test_keyboard_and_names(self):
         """Tab reaches every control, each of which has a name for screen readers, and the focus can be seen."""
         b = self.browser

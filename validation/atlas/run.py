@@ -22,8 +22,14 @@ from campaign_program import campaign_text, run_campaign, toml_value  # noqa: E4
 from validation_case import ValidationCase, read_table  # noqa: E402
 
 CAMPAIGNS = design.RECURRENCE + design.WHOLE + design.UPHILL  # of the atlas' own layers
-HELD_OUT = {"h0": 15, "h1": 15, "h2": 10, "h3": 16, "h4": 16}  # campaigns of random layers, and how many each has
-SEEN = 40  # the first of them were known when the trend and the uphill campaigns were chosen; the others judge
+HELD_OUT = {"h0": 15, "h1": 15, "h2": 10, "h3": 16, "h4": 16, "h5": 14, "h6": 14}  # campaigns of random layers, and how many each has
+SEEN = 56  # the first of them were known when the atlas was last changed (trend, uphill campaigns, draws); the others judge
+# Parts of the domain: what is judged for each, and which layers lie in it.
+REGIONS: dict[str, tuple[str, float, float]] = {
+    "no throw": ("throw_number", 0, 1), "near take-off": ("throw_number", 1, 1.2), "thrown": ("throw_number", 1.2, 2.42),
+    "several cycles": ("throw_number", 2.42, 4), "downhill": ("tan_inclination", -1, -0.02), "level": ("tan_inclination", -0.02, 0.02),
+    "uphill": ("tan_inclination", 0.02, 1),
+}  # fmt: skip
 DRY_TORQUE = 0.02  # of the rolling-layer law, to which rolling friction adds
 # What a layer does to its trough: the part of its mass that moves along, its damping over mass times omega (the first campaigns have
 # neither), and the cycles after which its motion repeats.
@@ -223,7 +229,21 @@ def judge(run: ValidationCase) -> None:
         least, most = scipy.stats.binom.ppf([0.025, 0.975], len(every), 0.95)
         all_rms = {key: math.sqrt(float(np.mean([(float(row["efficiency"]) - float(row[key])) ** 2 for row in every]))) for key in rms}
         scores = {"all": len(every), **{f"all_rms_{key}": f"{one:.3f}" for key, one in all_rms.items()}, "all_held": all_held, "all_least": f"{least:.0f}", "all_most": f"{most:.0f}", "layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
+        by_region(run)
         run.follows("scores.csv", ["score", "value"], [[name, one] for name, one in scores.items()])
+
+
+def by_region(run: ValidationCase) -> None:
+    """How well each part of the domain is predicted, from all random layers."""
+    every = run.table("predicted.csv")
+    rows: list[list[object]] = []
+    for region, (key, low, high) in REGIONS.items():
+        inside = [row for row in every if low < float(row[key]) <= high]
+        value = {name: np.array([float(row[name]) for row in inside]) for name in PREDICTED[4:]}
+        held = int(np.sum(np.abs(value["efficiency"] - value["atlas"]) <= np.hypot(value["half_width"], value["atlas_half_width"])))
+        rms = [f"{math.sqrt(float(np.mean((value['efficiency'] - value[model]) ** 2))):.3f}" for model in ("atlas", "rolling_layer", "theory")]
+        rows.append([region, key, low, high, len(inside), held, *rms])
+    run.follows("regions.csv", ["region", "input", "above", "up_to", "layers", "held", "rms_atlas", "rms_rolling_layer", "rms_theory"], rows)
 
 
 def judge_decisions(run: ValidationCase) -> dict[str, object]:
@@ -243,7 +263,10 @@ def draw(run: ValidationCase) -> None:
     figure, axes = figure_style.new_figure(layout="constrained")
     axes.plot([-0.2, 1.2], [-0.2, 1.2], color=figure_style.GREY, linewidth=0.8)
     axes.plot(number["theory"], number["efficiency"], "o", mfc="none", color=figure_style.GREY, label="point mass")
-    axes.errorbar(number["atlas"], number["efficiency"], number["half_width"], number["atlas_half_width"], fmt="o", color=figure_style.COLOURS[0], label="atlas")
+    for (region, (key, low, high)), colour in zip(list(REGIONS.items())[:4], figure_style.COLOURS, strict=False):
+        here = np.array([low < float(row[key]) <= high for row in rows])
+        part = {name: values[here] for name, values in number.items()}
+        axes.errorbar(part["atlas"], part["efficiency"], part["half_width"], part["atlas_half_width"], fmt="o", markersize=4, linewidth=0.8, color=colour, label=f"atlas, {region}")
     axes.set(xlabel="velocity efficiency, predicted", ylabel="velocity efficiency, simulated")
     axes.legend(fontsize=8)
     figure_style.plain_axes(axes)

@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "atlas/atlas.hpp"
 #include "core/version.hpp"
 
 #include <memory>
@@ -25,8 +26,12 @@ the point-mass theory that it solves:
 the engine of its simulations, with the version that 'vibrotrough probe-engine' prints:
   C. Kloss, C. Goniva, A. Hager, S. Amberger and S. Pirker, Models, algorithms and validation for opensource DEM and
   CFD-DEM, Progress in Computational Fluid Dynamics 12 (2012) 140-152, doi:10.1504/PCFD.2012.047457
+
+the atlas, where you use what 'predict', 'compare' or 'design' say from it:
+  {} layers that Vibrotrough {} simulated (validation/atlas of its sources), {}
 )",
-               core::program_version(), core::program_commit(), year);
+               core::program_version(), core::program_commit(), year, atlas::simulated_layers(),
+               core::program_version(), year);
 }
 
 void print_bibtex() {
@@ -53,15 +58,21 @@ void print_bibtex() {
   year = {{2012}},
   doi = {{10.1504/PCFD.2012.047457}}
 }}
+@misc{{vibrotrough-atlas,
+  title = {{An atlas of {} layers of spheres on vibrating troughs}},
+  howpublished = {{simulated by Vibrotrough {}, folder validation/atlas of its sources}},
+  year = {{{}}}
+}}
 )",
-               core::program_version(), year, core::program_commit());
+               core::program_version(), year, core::program_commit(), atlas::simulated_layers(),
+               core::program_version(), year);
 }
 
 }  // namespace
 
 void add_cite(CLI::App& program, int& exit_code) {
-    CLI::App* const command =
-        program.add_subcommand("cite", "Print what to cite: the program, the theory and the engine");
+    CLI::App* const command = program.add_subcommand(
+        "cite", "Print what to cite: the program, the theory, the engine and the atlas");
     auto const bibtex = std::make_shared<bool>(false);
     command->add_flag("--bibtex", *bibtex, "Print BibTeX entries");
     command->footer(R"(Example:

@@ -42,10 +42,12 @@ struct PredictedLayer {
 };
 
 /// W/m^2, the mean power of the trough on a layer.
-atlas::Bounded power_per_area(atlas::LayerLoad const& load, prepare::PreparedCase const& prepared) {
+atlas::Bounded power_per_area(atlas::LayerLoad const& load, prepare::PreparedCase const& prepared,
+                              std::optional<atlas::Bounded> const& fed_depth) {
     scenario::Scenario const& s = prepared.scenario;
     auto const [value, half_width] = power_per_mass(load, s.trough.amplitude, s.trough.frequency);
-    double const mass_per_area = prepared.mass / (s.layer.length * s.layer.width);
+    double const mass_per_area = fed_depth ? bulk_density(s.grains) * fed_depth->value
+                                           : prepared.mass / (s.layer.length * s.layer.width);
     return {mass_per_area * value, mass_per_area * half_width};
 }
 
@@ -59,7 +61,7 @@ PredictedLayer predict_layer(prepare::PreparedCase const& prepared, std::string 
                          {}};
     if (layer.answer.place) {
         layer.load = atlas::load_at(*layer.answer.place);
-        layer.power = power_per_area(*layer.load, prepared);
+        layer.power = power_per_area(*layer.load, prepared, layer.answer.fed_depth);
     }
     return layer;
 }
@@ -72,6 +74,15 @@ std::vector<PredictedLayer> predict_all(scenario::Campaign const& campaign) {
         layers.push_back(predict_layer(preparer.prepare(scenario), label.empty() ? campaign.name : label));
     }
     return layers;
+}
+
+/// What is told of a layer in words: how deep its feed makes it, and what lies outside.
+std::string remarks(PredictedLayer const& layer) {
+    std::string text;
+    if (auto const& depth = layer.answer.fed_depth)
+        text = fmt::format("  fed: {:.3g} +- {:.2g} mm deep", 1e3 * depth->value, 1e3 * depth->half_width);
+    std::string const outside = layer.outside(&atlas::Outside::why, ", ");
+    return outside.empty() ? text : text + "  outside: " + outside;
 }
 
 /// What is told of a layer beside its efficiency, in the order of columns and members.
@@ -87,6 +98,7 @@ std::vector<std::pair<char const*, std::optional<double>>> load_of(PredictedLaye
     add("added_mass_fraction", "added_mass_fraction_half_width", part(&atlas::LayerLoad::added_mass));
     add("damping", "damping_half_width", part(&atlas::LayerLoad::damping));
     add("power_per_area_w_per_m2", "power_per_area_half_width_w_per_m2", layer.power);
+    add("fed_depth_m", "fed_depth_half_width_m", layer.answer.fed_depth);
     return all;
 }
 
@@ -139,12 +151,11 @@ void print_text(std::vector<PredictedLayer> const& layers) {
                "");
     fmt::print(fmt::runtime(line), "", width, "95 %", "m/s", "point mass", "W/m2, 95 %", "share, 95 %", "");
     for (PredictedLayer const& layer : layers) {
-        std::string const outside = layer.outside(&atlas::Outside::why, ", ");
         auto const& added = layer.load ? std::optional(layer.load->added_mass) : std::nullopt;
         fmt::print(fmt::runtime(line), layer.label, width,
                    with_half_width(layer.answer.efficiency, layer.answer.half_width),
                    core::three_digits(layer.speed()), core::three_digits(layer.theory), bounded(layer.power),
-                   bounded(added), outside.empty() ? "" : "  outside: " + outside);
+                   bounded(added), remarks(layer));
     }
     bool const is_all_inside =
         std::ranges::all_of(layers, [](PredictedLayer const& layer) { return layer.answer.is_inside(); });
