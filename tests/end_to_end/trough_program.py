@@ -48,7 +48,7 @@ SMALL = {
         "diameter": "3 mm",
         "diameter_spread": 0.1,
         "density": "1400 kg/m3",
-        "youngs_modulus": "0.1 MPa",
+        "youngs_modulus": "0.3 MPa",
         "poisson_ratio": 0.35,
         "friction": 0.5,
         "restitution": 0.5,

@@ -1,10 +1,14 @@
-"""What the tests of the page share: the program, and where they write."""
+"""What the tests of the page share: the program, where they write, and a page in a browser."""
 
+import json
 import os
 import pathlib
 import re
 import subprocess
 import sys
+import unittest
+
+from browser import Browser
 
 NAME, PROGRAM, WORK = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
 WORK.mkdir(parents=True, exist_ok=True)
@@ -24,3 +28,37 @@ def number(text):
     found = re.match(r"[−-]?\d+(?:[.,](\d+))?", text)
     assert found, text
     return float(found[0].replace("−", "-").replace(",", ".")), 0.5 * 10 ** -len(found[1] or "") * (1 + 1e-9)
+
+
+class PageCase(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.page = WORK / "page.html"
+        done = program("page", "--output", cls.page)
+        assert done.returncode == 0, done.stderr
+        cls.browser = Browser(NAME, WORK)
+        cls.addClassCleanup(cls.browser.close)
+
+    def setUp(self):
+        self.browser.size(1280, 900)
+        self.browser.requests.clear()
+        self.browser.console.clear()
+        self.browser.open(self.page, f"?{self.id()}")  # a page of its own: only '#' would keep the old one
+        self.browser.wait(READY)
+
+    def tearDown(self):
+        asked = [one for one in self.browser.requests if not one.startswith(("file:", "data:", "about:", "chrome:", "resource:", "moz-"))]
+        self.assertEqual(asked, [], "the page asks no network for anything")
+        self.assertEqual(self.browser.console, [])
+
+    def drawn(self):
+        """Waits until everything is drawn that the last action changed."""
+        self.browser.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))")
+
+    def assert_shows(self, identity, value):
+        shown, half = number(self.browser.text(identity))
+        self.assertLessEqual(abs(shown - value), half + 1e-9 * abs(value), f"{identity} shows {shown}, the program says {value}")
+
+    def go(self, part):
+        self.browser.run(f"new Promise((done) => {{ addEventListener('hashchange', () => done(1), {{once: true}}); location.hash = {json.dumps('#' + part)}; }})")
+        self.drawn()

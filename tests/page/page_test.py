@@ -12,50 +12,18 @@ import sys
 import unittest
 
 try:
-    from browser import Browser, pages_in
+    from browser import pages_in
+    from page_program import ANSWERED, NAME, NEEDS, READY, WORK, PageCase, number, program
     import results_test
 except ImportError:
     print("SKIPPED: python3-websocket is not installed")
     sys.exit(77)
-from page_program import ANSWERED, NAME, NEEDS, READY, WORK, number, program
 from trough_program import at_night
 
 CampaignTest, DesignTest = results_test.CampaignTest, results_test.DesignTest  # run with those of this file
 
 
-class PageTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.page = WORK / "page.html"
-        done = program("page", "--output", cls.page)
-        assert done.returncode == 0, done.stderr
-        cls.browser = Browser(NAME, WORK)
-        cls.addClassCleanup(cls.browser.close)
-
-    def setUp(self):
-        self.browser.size(1280, 900)
-        self.browser.requests.clear()
-        self.browser.console.clear()
-        self.browser.open(self.page, f"?{self.id()}")  # a page of its own: only '#' would keep the old one
-        self.browser.wait(READY)
-
-    def tearDown(self):
-        asked = [one for one in self.browser.requests if not one.startswith(("file:", "data:", "about:", "chrome:", "resource:", "moz-"))]
-        self.assertEqual(asked, [], "the page asks no network for anything")
-        self.assertEqual(self.browser.console, [])
-
-    def drawn(self):
-        """Waits until everything is drawn that the last action changed."""
-        self.browser.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))")
-
-    def assert_shows(self, identity, value):
-        shown, half = number(self.browser.text(identity))
-        self.assertLessEqual(abs(shown - value), half + 1e-9 * abs(value), f"{identity} shows {shown}, the program says {value}")
-
-    def go(self, part):
-        self.browser.run(f"new Promise((done) => {{ addEventListener('hashchange', () => done(1), {{once: true}}); location.hash = {json.dumps('#' + part)}; }})")
-        self.drawn()
-
+class PageTest(PageCase):
     def test_answers_are_those_of_the_program(self):
         draw = random.Random(50)
         for _ in range(50 if NAME == "firefox" else 12):  # Firefox has the night
@@ -111,7 +79,6 @@ class PageTest(unittest.TestCase):
         quantities = json.loads(done.stdout)["quantities"]
         return quantities["mass_flow_per_hour"]["value"] / quantities["conveying_speed"]["value"]
 
-    @at_night
     def test_the_band_has_a_gap_where_the_atlas_ends(self):
         """Atlas and models have bands of their own, and a sentence says from where to where the atlas answers."""
         b = self.browser
@@ -198,7 +165,6 @@ class PageTest(unittest.TestCase):
         self.assertEqual(b.text("speed"), "none")
         self.assertIn("runs away", b.text("reason"))
 
-    @at_night
     def test_words_and_units(self):
         b = self.browser
         b.run("(document.getElementById('language').focus(), 1)")
@@ -210,7 +176,6 @@ class PageTest(unittest.TestCase):
         left = b.run("[...document.querySelectorAll('[data-word]')].filter((e) => !e.textContent && e.dataset.word !== 'unit_1').map((e) => e.dataset.word)")
         self.assertEqual(left, [])
 
-    @at_night
     def test_first_answer_and_redraws(self):
         b, times = self.browser, []
         for i in range(7):
@@ -231,7 +196,6 @@ class PageTest(unittest.TestCase):
         # Times are printed and not judged, because other tests keep the cores busy; that no redraw is left out is counted.
         self.assertGreaterEqual(frames["drawn"], 88)
 
-    @at_night
     def test_a_page_whose_theory_is_damaged_says_so(self):
         damaged = WORK / "damaged.html"
         damaged.write_text(re.sub(r'(id="theory">.{1000})[^<]*', r"\1", self.page.read_text(encoding="utf-8")), encoding="utf-8")
@@ -310,7 +274,6 @@ class PageTest(unittest.TestCase):
         self.paste("<img src=x onerror=alert(1)> 3\n")
         self.assertEqual(b.run("document.querySelectorAll('img').length"), 0)
 
-    @at_night
     def test_pictures_follow(self):
         b = self.browser
         b.click("#map", 0.6, 0.4)
@@ -331,7 +294,6 @@ class PageTest(unittest.TestCase):
         self.go("inclination_deg=25&friction=0.2")
         self.assertEqual(b.text("motion-text"), "There is no periodic motion to show.")
 
-    @at_night
     def test_the_makers_rule_is_drawn_for_level_troughs(self):
         """v = 3.81 N S (validation/daesung): proportional to the stroke, so that it is a straight line through the origin."""
         self.browser.wait("document.documentElement.dataset.complete === 'true'")
@@ -345,7 +307,6 @@ class PageTest(unittest.TestCase):
         self.browser.wait("document.documentElement.dataset.complete === 'true'")
         self.assertEqual(self.browser.run(path), "")
 
-    @at_night
     def test_printed_on_one_sheet(self):
         """With the map, which is drawn also where nobody has scrolled to it."""
         map_pixels = "(() => { const c = document.getElementById('map'); return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((x) => x > 0); })()"
@@ -356,7 +317,6 @@ class PageTest(unittest.TestCase):
             self.go(part)
             self.assertEqual(pages_in(self.browser.printed()), 1)
 
-    @at_night
     def test_keyboard_and_names(self):
         """Tab reaches every control, each of which has a name for screen readers, and the focus can be seen."""
         b = self.browser
@@ -396,6 +356,12 @@ class PageTest(unittest.TestCase):
                       && e.contains(document.elementFromPoint(b.left + b.width / 2, b.top + b.height / 2))]; }})""")
                 self.assertEqual([one for one, is_seen in boxes if not is_seen], [], (language, width))
                 self.assertLess(self.browser.run("document.getElementById('summary').getBoundingClientRect().height / innerHeight"), most, (language, width))
+
+
+# With every commit the rest runs in one browser, at night all of it in two.
+for part in ("band_has_a_gap", "words_and_units", "first_answer", "theory_is_damaged", "pictures_follow", "makers_rule", "one_sheet", "keyboard"):
+    (name,) = (name for name in dir(PageTest) if part in name)
+    setattr(PageTest, name, at_night(getattr(PageTest, name)))
 
 
 def main():
