@@ -91,10 +91,10 @@ TEST(ModelErrors, OfTheLawHoldForGrainsThatRollAgainstFriction) {
             level_held += is_level && is_held ? 1 : 0;
         }
     }
-    EXPECT_EQ(known, 135);
-    EXPECT_EQ(held, 126);
-    EXPECT_EQ(level, 12);
-    EXPECT_EQ(level_held, 8);
+    EXPECT_EQ(known, 146);
+    EXPECT_EQ(held, 137);
+    EXPECT_EQ(level, 14);
+    EXPECT_EQ(level_held, 10);
 }
 
 // The rolling friction that nobody knows is anything that the layers of the atlas have.

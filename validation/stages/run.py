@@ -26,6 +26,10 @@ BEFORE, RAMP, LOW, HIGH = 20, 84, 2.75, 6.05  # cycles, cycles, mm, mm
 RAMPS = {"measure.packings": 4, "stages.1.cycles": BEFORE, "stages.1.amplitude": f"{LOW} mm", "stages.2.cycles": RAMP, "stages.2.ramp_cycles": RAMP, "stages.2.amplitude": f"{HIGH} mm",
          "stages.3.cycles": RAMP, "stages.3.ramp_cycles": RAMP, "stages.3.amplitude": f"{LOW} mm"}  # fmt: skip
 HALF_WINDOW = 5  # cycles before and after the amplitude that is looked at
+# A sweep of the frequency through take-off: throw numbers, of which the square root is proportional to the frequency at 4.4 mm.
+SLOW, FAST, THROW_NUMBERS = 0.7, 1.6, ["0.85", "1.00", "1.20"]
+CONTROL_OF_SWEEP = dict(zip(THROW_NUMBERS, THROW_NUMBERS[1:] + THROW_NUMBERS[:1], strict=True))
+SWEEP_COLUMNS = ["drive", "throw_number", "efficiency", "half_width"]
 COLUMNS = ["drive", "amplitude_mm", "efficiency", "half_width"]
 CONTROL = {"3.3": "5.5", "4.4": "3.3", "5.5": "4.4"}  # the negative control: another drive
 
@@ -33,6 +37,11 @@ CONTROL = {"3.3": "5.5", "4.4": "3.3", "5.5": "4.4"}  # the negative control: an
 def scale(amplitude_mm: str) -> float:
     """omega r cos(beta), m/s."""
     return 2 * math.pi * FREQUENCY * float(amplitude_mm) * 1e-3 * COSINE
+
+
+def hertz(throw_number: float) -> float:
+    """Frequency of a throw number at 4.4 mm, 30 degrees, downhill by 3 degrees."""
+    return math.sqrt(throw_number * 9.81 * math.cos(math.radians(3)) / (4.4e-3 * math.sin(math.radians(30)))) / (2 * math.pi)
 
 
 def result(run: ValidationCase, name: str) -> h5py.File:
@@ -71,6 +80,25 @@ def speeds_in_ramps(run: ValidationCase) -> list[list[object]]:
     return rows
 
 
+def simulate_take_off(run: ValidationCase) -> None:
+    """In a ramp that is linear in time the throw number is linear in the cycles: f^2 = f_0^2 + n (f_1^2 - f_0^2) / N."""
+    steady = run.campaign("take-off", {}, {"trough.frequency": [f"{hertz(float(number)):.5f} Hz" for number in THROW_NUMBERS]})
+    rows: list[list[object]] = [["steady", number, row["efficiency"], row["efficiency_half_width"]] for number, row in zip(THROW_NUMBERS, steady, strict=True)]
+    slow, fast = (f"{hertz(number):.5f} Hz" for number in (SLOW, FAST))
+    sweep = {"measure.packings": 4, "stages.1.cycles": BEFORE, "stages.1.frequency": slow}
+    for stage, frequency in ((2, fast), (3, slow)):
+        sweep |= {f"stages.{stage}.cycles": RAMP, f"stages.{stage}.ramp_cycles": RAMP, f"stages.{stage}.frequency": frequency}
+    run.campaign("sweep", sweep, {})
+    x = places(run, "sweep")
+    stroke = 2 * math.pi * 4.4e-3 * COSINE  # m per cycle at a velocity efficiency of 1
+    for number in THROW_NUMBERS:
+        share = (float(number) - SLOW) / (FAST - SLOW)
+        middles = [BEFORE + round(share * RAMP), BEFORE + RAMP + round((1 - share) * RAMP)]
+        up, down = ((x[:, m + HALF_WINDOW] - x[:, m - HALF_WINDOW]) / (2 * HALF_WINDOW) / stroke for m in middles)
+        rows += [[name, number, *of_packings(values)] for name, values in (("up", up), ("down", down), ("both", (up + down) / 2), ("up less down", up - down))]
+    run.write_table("take_off.csv", SWEEP_COLUMNS, rows)
+
+
 def simulate(run: ValidationCase) -> None:
     steady = run.campaign("steady", {}, {"trough.amplitude": [f"{amplitude} mm" for amplitude in AMPLITUDES]})
     rows: list[list[object]] = [["steady", amplitude, row["efficiency"], row["efficiency_half_width"]] for amplitude, row in zip(AMPLITUDES, steady, strict=True)]
@@ -85,6 +113,7 @@ def simulate(run: ValidationCase) -> None:
     rows += speeds_in_stages(run, "changes", [("from rest", "4.4"), ("at once", "3.3"), ("with a ramp", "5.5"), ("standstill", "5.5")])
     rows += speeds_in_ramps(run)
     run.write_table("result.csv", COLUMNS, rows)
+    simulate_take_off(run)
     run.write_table("time.csv", ["time_to_speed_s", "half_width_s"], [[changes["time_to_speed_s"], changes["time_to_speed_half_width_s"]]])
 
 
@@ -113,11 +142,28 @@ def judge(run: ValidationCase) -> None:
                       because="both intervals, and the lag of one way" if lag else "both intervals")  # fmt: skip
 
 
+def judge_take_off(run: ValidationCase) -> None:
+    rows = {(row["drive"], row["throw_number"]): (float(row["efficiency"]), float(row["half_width"])) for row in run.table("take_off.csv")}
+    (time,) = run.table("time.csv")
+    first, last = ((rows["steady", number][0] * hertz(float(number)), float(number)) for number in (THROW_NUMBERS[0], THROW_NUMBERS[-1]))
+    per_cycle = (last[0] - first[0]) / (last[1] - first[1]) * (FAST - SLOW) / RAMP  # of efficiency times frequency, 1/s
+    for number in THROW_NUMBERS:
+        steady, width = rows["steady", CONTROL_OF_SWEEP[number] if run.control else number]
+        lag = abs(per_cycle) * float(time["time_to_speed_s"]) / 3
+        for drive, more in (("up", lag), ("down", lag), ("both", 0.0)):
+            value, own = rows[drive, number]
+            run.check(f"efficiency of the sweep, {drive}, at throw number {number} less that of the steady drive", value - steady, 0, width + own + more,
+                      because="both intervals, and the lag of one way" if more else "both intervals")  # fmt: skip
+        value, own = rows["up less down", number]
+        run.check(f"efficiency up less down at throw number {number}", value, 0, own + 2 * lag, because="its interval, and the lag of both ways: else a hysteresis")
+
+
 def main() -> None:
     run = ValidationCase(FOLDER)
     if run.long:
         simulate(run)
     judge(run)
+    judge_take_off(run)
     run.finish()
 
 
