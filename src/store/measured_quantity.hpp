@@ -42,18 +42,22 @@ void add_measured(std::vector<Quantity>& rows, std::string_view name, std::strin
 /// Mean and half-width over the packings of a number that each row of a table has.
 class MeasuredColumn {
   public:
+    /// A column without rows, whose intervals have this level.
     explicit MeasuredColumn(double confidence) : confidence_(confidence) {}
 
+    /// The next row: the number of each packing.
     void add(measure::EnsembleNumber const& value) {
         means.push_back(value.mean());
         half_widths.push_back(value.half_width(confidence_));
     }
+    /// Adds the means, and behind them the half-widths, to the columns of a table.
     void put_into(std::vector<CaseValues>& columns) const {
         columns.emplace_back(means);
         columns.emplace_back(half_widths);
     }
 
-    std::vector<double> means = {}, half_widths = {};
+    std::vector<double> means = {};        ///< over the packings, row by row
+    std::vector<double> half_widths = {};  ///< of their intervals; NaN with one packing
 
   private:
     double confidence_;
