@@ -1,6 +1,7 @@
 #include "store/stage_quantities.hpp"
 
 #include "measure/stage_means.hpp"
+#include "store/measured_quantity.hpp"
 
 #include <cmath>
 #include <optional>
@@ -60,13 +61,9 @@ std::vector<double> numbers(std::vector<Stage> const& stages, Of const& of) {
 /// Mean and half-width of a number for each stage.
 void add_measured(std::vector<CaseValues>& columns, std::vector<measure::StageMeans> const& means,
                   measure::EnsembleNumber measure::StageMeans::*number, double confidence) {
-    std::vector<double> values, widths;
-    for (measure::StageMeans const& one : means) {
-        values.push_back((one.*number).mean());
-        widths.push_back((one.*number).half_width(confidence));
-    }
-    columns.emplace_back(std::move(values));
-    columns.emplace_back(std::move(widths));
+    MeasuredColumn measured(confidence);
+    for (measure::StageMeans const& one : means) measured.add(one.*number);
+    measured.put_into(columns);
 }
 
 using OptionalNumber = Field<PackingRecord, std::optional<double>>;
@@ -171,19 +168,21 @@ std::vector<CaseValues> stage_cycles_table(Case record) {
     if (!has_stages(record)) return {};
     std::vector<Stage> const all = stages(record.scenario);
     measure::StagedVelocities const velocities = velocities_of(record, all);
-    std::vector<double> times, numbers, speeds, widths;
+    std::vector<double> times, numbers;
+    MeasuredColumn speeds(record.scenario.measure.confidence);
     double time = 0;
     for (std::size_t i = 0; i < velocities.durations.size(); ++i) {
         times.push_back(time + velocities.durations[i] / 2);
         time += velocities.durations[i];
         measure::EnsembleNumber speed;
         for (auto const& packing : velocities.packings) speed.values.push_back(packing[i]);
-        speeds.push_back(speed.mean());
-        widths.push_back(speed.half_width(record.scenario.measure.confidence));
+        speeds.add(speed);
     }
     for (std::size_t i = 0; i < all.size(); ++i)
         numbers.insert(numbers.end(), static_cast<std::size_t>(all[i].cycles), static_cast<double>(i + 1));
-    return {times, numbers, speeds, widths};
+    std::vector<CaseValues> columns{times, numbers};
+    speeds.put_into(columns);
+    return columns;
 }
 
 void add_stages(CaseRecord& record) {
