@@ -129,7 +129,7 @@ void check_filling(std::vector<Finding>& findings, prepare::PreparedCase const& 
              fmt::format("raise it to {:.0f} or more, and max_cycles with it, so that the trough is full for "
                          "half of the cycles",
                          std::ceil(2 * cycles))));
-    double const needed = layer_height(s) + 2 * largest_diameter(s);
+    double const needed = layer_under_feed(s) + 2 * largest_diameter(s);
     findings.push_back(
         most("expected layer and two grains / height of the feed", "feed.height", needed / feed_height(s), 1,
              never,

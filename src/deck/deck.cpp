@@ -61,12 +61,12 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
     } else {
         files[floor] = flat_trough_stl(length, width, edge);
     }
+    double const coarse = std::min(length, 4 * edge);
     if (scenario.trough.side_wall_friction) {
-        double const coarse = std::min(length, 4 * edge);
         files["left.stl"] = side_wall_stl(length, prepared.wall_height, 0, coarse);
         files["right.stl"] = side_wall_stl(length, prepared.wall_height, width, coarse);
-        if (domain.open) files["back.stl"] = cross_wall_stl(width, 0, prepared.wall_height, 0, coarse);
     }
+    if (domain.open) files["back.stl"] = cross_wall_stl(width, 0, prepared.wall_height, 0, coarse);
     return files;
 }
 

@@ -4,8 +4,8 @@
 #include "deck/contact_columns.hpp"
 #include "deck/drive_formula.hpp"
 #include "deck/estimates.hpp"
+#include "deck/moving_meshes.hpp"
 #include "deck/stage_data.hpp"
-#include "deck/trough_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -166,6 +166,7 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("cohesion", text(s.engine.cohesion));
     data.set("cohesions", repeated(types * types, s.engine.cohesion));
     data.set("wall_model", wall_model);
+    data.set("gate_model", wall_model);
     data.set("contact_options", options);
     data.set("contact_model", wall_model + " " + options);
     data.set("youngs_moduli", repeated(types, s.grains.youngs_modulus.value()));
@@ -274,27 +275,13 @@ void describe_material_columns(core::TemplateData& data, prepare::PreparedCase c
     data.set("material_values", values);
 }
 
-/// The parts of a mesh with a contact of their own.
-void describe_parts(core::TemplateData& data, prepare::PreparedCase const& n) {
-    std::vector<core::TemplateData> parts;
-    for (std::size_t i = 0; i < n.domain.parts.size(); ++i) {
-        core::TemplateData part;
-        part.set("mesh", part_mesh(i));
-        part.set("part_file", part_file(i));
-        part.set("type", std::to_string(atom_type_of_part(n, i)));
-        parts.push_back(std::move(part));
-    }
-    if (!parts.empty()) data.set("mesh_count", std::to_string(1 + parts.size()));
-    data.set("mesh_parts", std::move(parts));
-}
-
 /// Where the grains are poured, and how long settling may take.
 void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) {
     scenario::Scenario const& s = n.scenario;
     bool const walls = n.domain.is_closed;
     data.set("closed", walls);
     data.set("has_mesh", n.domain.has_mesh());
-    describe_parts(data, n);
+    describe_moving_meshes(data, n);
     data.set("mesh_file", s.trough.mesh ? s.trough.mesh->names() : std::string());
     double const extent = n.largest_extent, diameter = mean_diameter(s), step = n.settle_time_step;
     double const fall_time = std::sqrt(2 * n.fill_top / scenario::gravity);

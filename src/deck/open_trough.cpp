@@ -9,6 +9,20 @@
 #include <fmt/format.h>
 
 namespace vibrotrough::deck {
+namespace {
+
+/// A grain that falls from fill_top and is turned by another one flies up to 2 fill_top far, and down a slope
+/// it rolls to the edge. There it leans on the gate, which has no friction then, so that it carries none of
+/// the weight.
+void describe_gate(core::TemplateData& data, prepare::PreparedCase const& n) {
+    scenario::Scenario const& s = n.scenario;
+    bool const slopes = n.domain.floor_top > 0;
+    if (s.layer.length - n.domain.open->feed_end >= 2 * n.fill_top && !slopes) return;
+    data.set("gate", fmt::format("{}", s.layer.length));
+    if (slopes) data.set("gate_model", std::string(name_of(s.engine.contact)));
+}
+
+}  // namespace
 
 void describe_open(core::TemplateData& data, prepare::PreparedCase const& n, int packing) {
     constexpr double late_cycles = 3, late_grains = 10;  // of the feed, that found no room
@@ -24,8 +38,7 @@ void describe_open(core::TemplateData& data, prepare::PreparedCase const& n, int
              std::string(",${fed},${fed_mass},${left},${left_mass},${held_mass},${window_mass}"));
     data.set("open_first_values", std::string(",0,0,0,0,${held_mass},0"));
     prepare::OpenTrough const& open = *n.domain.open;
-    // A grain that falls from fill_top and is turned by another one flies up to 2 fill_top far.
-    if (s.layer.length - open.feed_end < 2 * n.fill_top) data.set("gate", fmt::format("{}", s.layer.length));
+    describe_gate(data, n);
     double const flow = *s.feed.mass_flow;
     data.set("mass_flow", fmt::format("{}", flow));
     data.set("feeds_per_cycle", std::to_string(prepare::feeds_per_cycle));

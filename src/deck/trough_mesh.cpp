@@ -77,7 +77,7 @@ std::vector<std::vector<scenario::Triangle>> own_trough(prepare::PreparedCase co
     std::vector<std::vector<scenario::Triangle>> all{scenario::divided(domain.surface, edge)};
     for (prepare::TroughPart const& part : domain.parts) all.push_back(scenario::divided(part.surface, edge));
     for (double const y : {0.0, layer.width}) {
-        if (!domain.is_closed) break;
+        if (!prepared.scenario.trough.mesh->has_upright_sides) break;
         scenario::Point const a{0, y, domain.top}, b{layer.length, y, domain.top},
             c{layer.length, y, prepared.wall_height}, d{0, y, prepared.wall_height};
         auto const below =

@@ -14,16 +14,20 @@ void measure_open(store::PackingRecord& record, prepare::PreparedCase const& pre
                   PackingFiles const& files) {
     scenario::Scenario const& s = prepared.scenario;
     prepare::OpenTrough const& open = *prepared.domain.open;
-    measure::OpenFacts const facts{
-        1 / s.trough.frequency,
-        s.layer.length,
-        record.steps_per_cycle,
-        std::max(record.estimate.discarded, measure::cycles_to_fill(record.series)),
-        record.series.cycles(),
-        scenario::settled_solid_fraction * mean_density(s),
-        s.layer.width,
-        open.window_end - open.window_start,
-        (s.layer.width + 2 * open.box_side) * (prepared.box_top - prepared.box_bottom)};
+    measure::OpenFacts facts{1 / s.trough.frequency,
+                             s.layer.length,
+                             record.steps_per_cycle,
+                             std::max(record.estimate.discarded, measure::cycles_to_fill(record.series)),
+                             record.series.cycles(),
+                             scenario::settled_solid_fraction * mean_density(s),
+                             s.layer.width,
+                             open.window_end - open.window_start,
+                             (s.layer.width + 2 * open.box_side) * (prepared.box_top - prepared.box_bottom)};
+    if (s.trough.mesh)
+        facts.level = [mesh = s.trough.mesh, half = open.bin / 2, unit = metres_in(s.trough.mesh_unit)](
+                          double x, double mean_depth) {
+            return unit * mesh->level_across(mean_depth / unit, (x - half) / unit, (x + half) / unit).height;
+        };
     record.open =
         measure::open_flow(record.series, measure::parse_left(files.snapshots, record.steps_per_cycle),
                            files.snapshots, files.folder, facts);

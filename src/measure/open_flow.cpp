@@ -83,6 +83,7 @@ AlongTrough along_trough(std::vector<Snapshot> const& snapshots, OpenFacts const
         along.depth[i] /= count;
         along.speed[i] =
             grains[i] > 0 ? along.speed[i] / grains[i] : std::numeric_limits<double>::quiet_NaN();
+        if (facts.level) along.level.push_back(facts.level(along.x[i], along.depth[i]));
     }
     return along;
 }

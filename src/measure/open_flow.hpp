@@ -4,6 +4,7 @@
 #include "measure/cycle_series.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,20 +41,24 @@ struct OpenFacts {
     double width;         ///< m, of the trough
     double window;        ///< m, length of the window
     double box_section;   ///< m^2, of the box across the trough, to which the engine's densities refer
+    /// m, the surface of a layer at rest above the trough's lowest point, from the middle of a bin and the
+    /// mean depth there (m). Only of a trough with a mesh.
+    std::function<double(double x, double mean_depth)> level = {};
 };
 
 /// Values along the trough, bin by bin from the back wall to the edge: means over the cycles.
 struct AlongTrough {
-    std::vector<double> x;      ///< m, middle of the bin
-    std::vector<double> depth;  ///< m, height of the layer if it had settled
-    std::vector<double> speed;  ///< m/s, of its grains; NaN where there was none
+    std::vector<double> x;           ///< m, middle of the bin
+    std::vector<double> depth;       ///< m, height of the layer if it had settled, mean over the width
+    std::vector<double> speed;       ///< m/s, of its grains; NaN where there was none
+    std::vector<double> level = {};  ///< m, its surface above the trough's lowest point; only of a mesh
 };
 
 /// What was measured in one packing of an open trough. All but the time to fill are of the cycles that count.
 struct OpenFlow {
     std::optional<double> inflow, outflow;   ///< kg/s
     std::optional<double> hold_up;           ///< kg, in the trough at the ends of the cycles
-    std::optional<double> window_depth;      ///< m, of the settled layer in the window
+    std::optional<double> window_depth;      ///< m, of the settled layer in the window, mean over the width
     std::optional<double> residence_time;    ///< s, from the feed to the edge, mean of the grains that left
     std::optional<double> residence_spread;  ///< s, its standard deviation
     std::optional<double> peclet;            ///< see peclet_number()

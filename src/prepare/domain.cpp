@@ -6,10 +6,11 @@
 namespace vibrotrough::prepare {
 
 Domain domain_of(scenario::Scenario const& s) {
-    if (!s.trough.mesh) return {.is_closed = s.trough.side_wall_friction.has_value()};
+    bool const has_walls = s.trough.side_wall_friction.has_value();
+    if (!s.trough.mesh) return {.is_closed = has_walls};
     scenario::TroughMesh const& mesh = *s.trough.mesh;
     double const unit = metres_in(s.trough.mesh_unit);
-    Domain domain{.is_closed = mesh.has_upright_sides,
+    Domain domain{.is_closed = has_walls || mesh.has_upright_sides,
                   .floor_top = unit * mesh.floor_top,
                   .top = unit * mesh.extent[2]};
     std::array<double, 2> const ends{s.layer.length, s.layer.width};

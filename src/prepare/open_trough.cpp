@@ -15,9 +15,20 @@ double speed_of_feed(OpenTrough const& open, PreparedCase const& c) {
     return std::sqrt(open.feed_speed * open.feed_speed + 2 * scenario::gravity * drop);
 }
 
-/// m, the way of a grain in a cycle, with the speed with which the trough throws it or with this one.
+/// m, the way of a grain in a cycle, with the speed with which the trough throws it, from the highest point
+/// of its floor to the lowest one, or with this one.
 double longest_flight(PreparedCase const& c, double fed) {
-    return std::max(2 * c.largest_speed, fed) / c.scenario.trough.frequency + 2 * c.largest_extent;
+    double const thrown =
+        std::hypot(2 * c.largest_speed, std::sqrt(2 * scenario::gravity * c.domain.floor_top));
+    return std::max(thrown, fed) / c.scenario.trough.frequency + 2 * c.largest_extent;
+}
+
+/// m, the lowest and the highest point of the trough in its last part of this length.
+std::array<double, 2> heights_near_edge(scenario::Scenario const& s, double part) {
+    if (!s.trough.mesh) return {0, 0};
+    double const unit = metres_in(s.trough.mesh_unit), end = s.trough.mesh->extent[0];
+    auto const [lowest, highest] = s.trough.mesh->heights_between(end - part / unit, end);
+    return {unit * lowest, unit * highest};
 }
 
 /// What has passed a screen falls below it, up to a cycle long, in all directions. The wall below the edge
@@ -52,8 +63,12 @@ OpenTrough open_trough(PreparedCase const& c) {
     open.window_end = length - way / 6;
     // Grains that have left are taken out once per cycle, until when they fly and fall on.
     open.out_x = length + excursion + grain;
-    open.out_near_x = length - excursion - grain;
-    open.out_z = -(excursion + grain);
+    // What falls from a high place of the edge may fly back below the trough on its way to the lowest one.
+    double const near = excursion + grain;
+    auto const [lowest, highest] = heights_near_edge(s, near);
+    double const behind = highest - lowest;
+    open.out_near_x = length - excursion - grain - behind;
+    open.out_z = heights_near_edge(s, near + behind)[0] - near;
     // A grain of the feed can be thrown to the edge, as far as a ballistic flight is long at most (v^2 / g),
     // with the speed of its fall. The box of a longer trough is not made longer for it.
     double const fed = speed_of_feed(open, c);
@@ -63,7 +78,7 @@ OpenTrough open_trough(PreparedCase const& c) {
     open.box_start = -open.bin * std::ceil((excursion + 2 * grain) / open.bin);
     open.box_end = open.out_x + flight + fall * std::abs(std::sin(s.trough.inclination));
     open.box_side = flight / 2;
-    open.box_bottom = open.out_z - flight - fall;
+    open.box_bottom = std::min(open.out_z, -near) - flight - fall;
     if (is_screen(s)) add_screen(open, c, fall);
     return open;
 }

@@ -193,7 +193,7 @@ void prepare_box(PreparedCase& c) {
     }
     if (!is_open(c.scenario)) return;
     c.domain.open = open_trough(c);
-    c.box_top = std::max(c.box_top, 2 * c.domain.open->feed_top);
+    c.box_top = std::max({c.box_top, 2 * c.domain.open->feed_top, 2 * c.domain.top});
     c.box_bottom = c.domain.open->box_bottom;
     c.wall_height = c.box_top - 2 * (excursion + c.largest_extent);
 }

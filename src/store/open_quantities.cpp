@@ -11,6 +11,8 @@ namespace {
 using Case = CaseRecord const&;
 using Flow = measure::OpenFlow;
 
+constexpr std::string_view level_column = "level";
+
 /// A member of a packing's OpenFlow.
 template <auto member>
 MeasuredNumber flow() {
@@ -68,11 +70,9 @@ MeasuredColumn over_packings(Case record, PackingColumn column, std::size_t rows
 constexpr auto half_width_meaning =
     "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one packing";
 
-}  // namespace
-
-std::vector<PackingTable> const& open_tables() {
+std::vector<PackingTable> make_open_tables(bool mesh) {
     using Series = measure::OpenSeries;
-    static std::vector<PackingTable> const tables{
+    std::vector<PackingTable> tables{
         flow_column<&Series::fed>(
             "fed", "1", "Grains that were fed until the end of cycle 0 ... n; only of open troughs"),
         flow_column<&Series::fed_mass>("fed_mass", "kg", "Their mass"),
@@ -86,8 +86,14 @@ std::vector<PackingTable> const& open_tables() {
          {"x", "m", "Middle of a bin along the trough, from the back wall; only of open troughs"},
          packing_field([](auto& p) -> auto& { return p.open.along.x; })},
         {"along",
-         {"depth", "m", "Height of the layer in the bin if it had settled, mean over the cycles that count"},
+         {"depth", "m",
+          "Height of the layer in the bin if it had settled, mean over the width and over the cycles that "
+          "count"},
          packing_field([](auto& p) -> auto& { return p.open.along.depth; })},
+        {"along",
+         {level_column, "m",
+          "Its surface above the lowest point of the trough if it had settled; only of a trough of your own"},
+         packing_field([](auto& p) -> auto& { return p.open.along.level; })},
         {"along",
          {"velocity", "m/s", "Mean velocity of its grains along the trough; NaN where there were none"},
          packing_field([](auto& p) -> auto& { return p.open.along.speed; })},
@@ -98,7 +104,16 @@ std::vector<PackingTable> const& open_tables() {
           "left; only of open troughs"},
          packing_field([](auto& p) -> auto& { return p.open.residence; })},
     };
+    if (!mesh) std::erase_if(tables, [](PackingTable const& one) { return one.entry.name == level_column; });
     return tables;
+}
+
+}  // namespace
+
+std::vector<PackingTable> const& open_tables(bool mesh) {
+    static std::vector<PackingTable> const on_flat_floors = make_open_tables(false),
+                                           on_meshes = make_open_tables(true);
+    return mesh ? on_meshes : on_flat_floors;
 }
 
 std::vector<Entry> const& along_trough_entries() {
@@ -173,15 +188,16 @@ std::vector<Quantity> open_quantities() {
         rows, "hold_up", "hold_up_half_width", "kg",
         "Mass in the trough, with grains that have passed the edge and are less than a diameter away from it",
         {.place = 948, .format = "{:.3g}", .position = 274, .report = ReportView{"hold-up"}});
-    add_measured<&flow<&Flow::window_depth>>(rows, "window_depth", "window_depth_half_width", "m",
-                                             "Height of the layer in the window, if it had settled",
-                                             {.place = 952,
-                                              .unit = "mm",
-                                              .factor = 1000,
-                                              .format = "{:.2f}",
-                                              .position = 276,
-                                              .terminal = terminal_when_known("depth", "mm"),
-                                              .report = ReportView{"depth"}});
+    add_measured<&flow<&Flow::window_depth>>(
+        rows, "window_depth", "window_depth_half_width", "m",
+        "Height of the layer in the window, if it had settled, as a mean over the width",
+        {.place = 952,
+         .unit = "mm",
+         .factor = 1000,
+         .format = "{:.2f}",
+         .position = 276,
+         .terminal = terminal_when_known("depth", "mm"),
+         .report = ReportView{"depth"}});
     add_measured<&flow<&Flow::residence_time>>(
         rows, "residence_time", "residence_time_half_width", "s",
         "Time from the feed to the edge, mean over the grains that left",

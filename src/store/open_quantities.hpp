@@ -13,7 +13,8 @@
 namespace vibrotrough::store {
 
 /// The columns of the tables of each packing of an open trough: `flow`, `along` and `residence`.
-std::vector<PackingTable> const& open_tables();
+/// @param mesh  whether the trough has a mesh, to which a level along it belongs
+std::vector<PackingTable> const& open_tables(bool mesh);
 
 /// The columns of the table `along_trough`: one row for each bin along the trough.
 std::vector<Entry> const& along_trough_entries();

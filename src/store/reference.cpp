@@ -79,7 +79,7 @@ void add_packings(std::vector<NameInFile>& names) {
     }
     for (PackingTable const& table : material_tables(measure::most_materials))
         add(names, std::string(table.group) + "/<packing>/", real_type, "cycles + 1", table.entry);
-    for (PackingTable const& table : open_tables()) {
+    for (PackingTable const& table : open_tables(true)) {
         add(names, std::string(table.group) + "/<packing>/", real_type,
             table.group == "flow"    ? "cycles + 1"
             : table.group == "along" ? "bins"

@@ -222,7 +222,7 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
     for (std::size_t i = 0; i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
     for (std::size_t i = 0; is_open(record.scenario) && i < record.packings.size(); ++i)
-        read_tables(file, i, record.packings[i], open_tables());
+        read_tables(file, i, record.packings[i], open_tables(record.scenario.trough.mesh != nullptr));
     for (auto const* const tables : tables_of_screen(record.scenario))
         for (std::size_t i = 0; i < record.packings.size(); ++i)
             read_tables(file, i, record.packings[i], *tables);
@@ -300,7 +300,8 @@ std::string result_bytes(CaseRecord const& record) {
         if (record.scenario.measure.wear) add_tables(file, i, record.packings[i], wear_tables());
         if (record.scenario.measure.impacts) add_tables(file, i, record.packings[i], impact_tables());
         add_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
-        if (is_open(record.scenario)) add_tables(file, i, record.packings[i], open_tables());
+        if (is_open(record.scenario))
+            add_tables(file, i, record.packings[i], open_tables(record.scenario.trough.mesh != nullptr));
         for (auto const* const tables : tables_of_screen(record.scenario))
             add_tables(file, i, record.packings[i], *tables);
     }

@@ -4,6 +4,7 @@
 #include "deck/commands.hpp"
 #include "deck/deck.hpp"
 #include "scenario/example_campaign.hpp"
+#include "scenario/open_mesh.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
 #include <algorithm>
@@ -114,6 +115,77 @@ TEST(TroughMesh, SolidsWithAFrictionOfTheirOwnAreMeshesOfTheirOwn) {
     EXPECT_EQ(atom_types(lined).back().name, "walls");
     // A solid may be called as the trough, whose friction stays.
     EXPECT_EQ(pair_tables(lined_channel("trough")).frictions, "0.5 0.23 0.1 0.23 0.23 0.23 0.1 0.23 0.23");
+}
+
+/// The lines of a deck that another one does not have.
+std::vector<std::string> lines_only_in(std::string const& deck, std::string const& other) {
+    std::istringstream text(deck);
+    std::vector<std::string> found;
+    for (std::string line; std::getline(text, line);)
+        if (("\n" + other).find("\n" + line + "\n") == std::string::npos) found.push_back(line);
+    return found;
+}
+
+// The deck of an open trough with a flat mesh is that with the flat floor, but for the triangles and the
+// forces that are stored; a mesh that is not flat needs a gate while the first grains come to rest, which
+// carries none of their weight.
+TEST(TroughMesh, AnOpenTroughMayHaveOne) {
+    auto const deck_on = [](std::vector<scenario::Triangle> const& mesh, std::string const& trough) {
+        return make_deck(prepare::prepare_case(open_mesh::scenario_on(mesh, open_mesh::campaign(trough))),
+                         {1});
+    };
+    std::string const walls = "side_wall_friction = 0\n";
+    Deck const flat = make_deck(
+        prepare::prepare_case(scenario_of(with("mesh = \"own.stl\"\n", "", open_mesh::campaign(walls)))),
+        {1});
+    Deck const mesh = deck_on(open_mesh::slope(0, 0), walls);
+    for (char const* const file : {"left.stl", "right.stl", "back.stl", control_file})
+        EXPECT_EQ(mesh.files.at(file), flat.files.at(file)) << file;
+    for (char const* const file : {drive_file, settle_file}) {
+        std::string const &own = mesh.files.at(file), &plain = flat.files.at(file);
+        EXPECT_THAT(lines_only_in(own, plain),
+                    testing::ElementsAre(
+                        HasSubstr("surface of own.stl"),
+                        HasSubstr("mesh made from own.stl from the back wall to the edge"),
+                        HasSubstr("n_meshes 4 meshes trough left right back store_force yes limitForce")));
+        EXPECT_EQ(lines_only_in(plain, own).size(), 2u);
+    }
+    std::string const gate = "fix             gate all wall/gran model hertz primitive type 2 xplane 0.2 ";
+    EXPECT_THAT(deck_on(open_mesh::slope(9, 0), walls).files.at(settle_file), HasSubstr(gate));
+    EXPECT_THAT(mesh.files.at(settle_file), testing::Not(HasSubstr("gate")));
+
+    // Between upright walls of the mesh the back wall has the friction of the trough.
+    std::vector<scenario::Triangle> channel = open_mesh::slope(0, 0);
+    open_mesh::add_walls(channel, 15);
+    Deck const own_walls = deck_on(channel, "");
+    EXPECT_FALSE(own_walls.files.contains("left.stl"));
+    std::string const& drive = own_walls.files.at(drive_file);
+    EXPECT_THAT(drive, HasSubstr("boundary        f f f"));
+    EXPECT_THAT(drive, HasSubstr("fix             back all mesh/surface/stress file back.stl type 2 ref"));
+    EXPECT_THAT(drive, HasSubstr("mesh n_meshes 2 meshes trough back store_force yes"));
+    EXPECT_THAT(drive, HasSubstr("force_x equal f_trough[1]+f_back[1]\n"));
+    EXPECT_THAT(drive, HasSubstr("fix             drive_back all move/mesh mesh back linear/variable"));
+}
+
+// Solids with a friction of their own and side walls are types and meshes beside each other.
+TEST(TroughMesh, AnOpenOneMayHaveSolids) {
+    std::vector<scenario::Triangle> floor, liner;
+    open_mesh::add_floor(floor, 0, 100, 0, 0);
+    open_mesh::add_floor(liner, 100, 200, 0, 0);
+    std::string const pair = "\n[[pairs]]\nmaterials = [\"grains\", \"liner\"]\nfriction = 0.6\n";
+    scenario::Scenario const s =
+        scenario::parse_campaign(
+            open_mesh::campaign("side_wall_friction = 0.1\n") + pair, "test.toml",
+            {{}, {{"own.stl", scenario::stl_text("floor", floor) + scenario::stl_text("liner", liner)}}})
+            .cases.front();
+    Deck const deck = make_deck(prepare::prepare_case(s), {1});
+    std::string const& drive = deck.files.at(drive_file);
+    EXPECT_THAT(drive,
+                HasSubstr("fix             part_1 all mesh/surface/stress file part.1.stl type 4 ref"));
+    EXPECT_THAT(drive, HasSubstr("fix             back all mesh/surface/stress file back.stl type 3 ref"));
+    EXPECT_THAT(drive, HasSubstr("mesh n_meshes 5 meshes trough part_1 left right back store_force yes"));
+    EXPECT_THAT(drive, HasSubstr("coefficientFriction peratomtypepair 4 0.5 0.23 0.1 0.6 "));
+    EXPECT_THAT(drive, HasSubstr("force_z equal f_trough[3]+f_part_1[3]+f_left[3]+f_right[3]+f_back[3]\n"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@ overfed trough end as they should."""
 
 import json
 import unittest
+import zipfile
 
 import h5py
 import numpy as np
@@ -19,6 +20,36 @@ OPEN = {
     "measure.max_cycles": 32,
     "output.checkpoint_cycles": 8,
 }
+LENGTH, WIDTH, SIDE, STEP, STEP_AT = 75.0, 15.0, 7.5, 3.0, 40.0  # mm, of a V of 45 degrees with a step down behind the feed
+
+
+def quad(a, b, c, d):
+    return [(a, b, c), (a, c, d)]
+
+
+def solid(name, triangles):
+    facets = "".join("facet normal 0 0 1 outer loop " + " ".join(f"vertex {x} {y} {z}" for x, y, z in corners) + " endloop endfacet\n" for corners in triangles)
+    return f"solid {name}\n{facets}endsolid {name}\n"
+
+
+def vee(start, end, bottom):
+    return [
+        triangle
+        for y in (0.0, WIDTH)
+        for triangle in quad((start, y, bottom + SIDE), (end, y, bottom + SIDE), (end, WIDTH / 2, bottom), (start, WIDTH / 2, bottom))
+    ]
+
+
+def own_trough():
+    """As text STL: the V before the step with the step, and behind it a liner."""
+    step = [
+        triangle
+        for y in (0.0, WIDTH)
+        for triangle in quad((STEP_AT, y, SIDE), (STEP_AT, WIDTH / 2, 0.0), (STEP_AT, WIDTH / 2, STEP), (STEP_AT, y, SIDE + STEP))
+    ]
+    return solid("floor", vee(0.0, STEP_AT, STEP) + step) + solid("liner", vee(STEP_AT, LENGTH, 0.0))
+
+
 LOSING = """[before-first-cycle]
 region hole block 0.04 0.05 INF INF INF INF units box
 [at-cycle-end]
@@ -52,9 +83,7 @@ class OpenTrough(EndToEndTest):
             depths, stays = ([file[f"{table}/{number + 1}"][name] for number in range(len(packings))] for table, name in (("along", "depth"), ("residence", "time")))
             np.testing.assert_allclose(file["along_trough"]["depth"], np.mean(depths, axis=0), rtol=1e-12)
             np.testing.assert_allclose(file["residence_times"]["time"], np.mean(stays, axis=0), rtol=1e-12)
-        self.assertTrue(np.all(flow["held"][0] + flow["fed"] == flow["held"] + np.cumsum(flow["left"])))
-        lost = flow["held_mass"][0] + flow["fed_mass"] - flow["held_mass"] - np.cumsum(flow["left_mass"])
-        self.assertLess(np.abs(lost).max(), 1e-12 * flow["fed_mass"][-1])
+        self.assert_balance(flow)
         dumped = self.left_dumps(self.packing())
         numbers = [number for ids in dumped.values() for number in ids]
         self.assertEqual(len(numbers), flow["left"].sum())
@@ -79,6 +108,59 @@ class OpenTrough(EndToEndTest):
             for table in ("flow/1", "along/1", "residence/1", "along_trough", "residence_times"):
                 for name in file[table].dtype.names:
                     np.testing.assert_array_equal(file[table][name], same[table][name], f"{table}/{name}")
+
+    def assert_balance(self, flow):
+        """in = held + out at every cycle, by number and by mass."""
+        self.assertTrue(np.all(flow["held"][0] + flow["fed"] == flow["held"] + np.cumsum(flow["left"])))
+        lost = flow["held_mass"][0] + flow["fed_mass"] - flow["held_mass"] - np.cumsum(flow["left_mass"])
+        self.assertLess(np.abs(lost).max(), 1e-12 * flow["fed_mass"][-1])
+
+    def test_a_flat_mesh_is_the_flat_floor(self):
+        """The same feed, walls and grains on other triangles: the same flow, and a layer that is as deep and as fast as the flat
+        floor's within the scatter of one short packing."""
+        floor = quad((0, 0, 0), (LENGTH, 0, 0), (LENGTH, WIDTH, 0), (0, WIDTH, 0))
+        (self.folder / "own.stl").write_text(solid("floor", floor))
+        found = {}
+        for name, mesh in (("flat", {}), ("mesh", {"trough.mesh": "own.stl", "trough.mesh_unit": "mm"})):
+            changes = {**OPEN, "measure.packings": 1, "measure.min_cycles": 24, "measure.max_cycles": 24, **mesh}
+            self.run_campaign(self.write_campaign(changes, name=f"{name}.toml"), self.folder / name, wanted=None)
+            with h5py.File(next((self.folder / name).glob("cases/*/result.h5"))) as file:
+                found[name] = file["flow/1"][()], file["packings"][0], file["along/1"][()]
+        (flat_flow, flat, flat_along), (flow, own, along) = found["flat"], found["mesh"]
+        self.assert_balance(flow)
+        np.testing.assert_array_equal(flow["fed"][:5], flat_flow["fed"][:5])  # the same random numbers, before the layers differ
+        for column in ("inflow", "outflow", "hold_up", "window_depth", "efficiency"):
+            self.assertAlmostEqual(own[column] / flat[column], 1, delta=0.06, msg=column)
+        np.testing.assert_allclose(along["level"], along["depth"], rtol=1e-9)
+        self.assertNotIn("level", flat_along.dtype.names)
+
+    def test_a_trough_of_ones_own_is_killed_and_goes_on(self):
+        """A V with a step and a liner with a friction of its own. All grains add up, and the level of the layer is measured against the
+        mesh: h above the lowest point of a V of 45 degrees a layer has the cross-section h^2, until the V is full."""
+        (self.folder / "own.stl").write_text(own_trough())
+        changes = {**OPEN, "trough.mesh": "own.stl", "trough.mesh_unit": "mm", "measure.packings": 1, "measure.min_cycles": 24, "measure.max_cycles": 24}
+        campaign = self.write_campaign({**changes, "output.frames_per_cycle": 1})
+        with campaign.open("a") as file:
+            file.write('[[pairs]]\nmaterials = ["grains", "liner"]\nfriction = 0.4\n')
+        one, other = self.results_with_and_without_a_kill(campaign, 8, wanted=None)
+        with h5py.File(one) as file, h5py.File(other) as same:
+            for table in ("flow/1", "along/1", "residence/1"):
+                np.testing.assert_array_equal(file[table][()], same[table][()], table)
+            flow, along = file["flow/1"][()], file["along/1"][()]
+        self.assert_balance(flow)
+        self.assertGreater(flow["left"].sum(), 20)
+        bottom = np.where(along["x"] < STEP_AT / 1000, STEP / 1000, 0.0)
+        section = along["depth"] * WIDTH / 1000  # m2
+        side = SIDE / 1000
+        expected = bottom + np.where(section < side**2, np.sqrt(section), side / 2 + along["depth"])  # above the V between walls
+        away = np.abs(along["x"] - STEP_AT / 1000) > 0.006  # a bin over the step has two floors
+        np.testing.assert_allclose(along["level"][away], expected[away], atol=2e-4)
+        for command in (("export", self.output), ("archive", self.output, "--output", self.folder / "own.zip", "--partial")):
+            done = self.call(*command)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(list(self.output.glob("cases/*/frames/trough/*.vtp")))
+        with zipfile.ZipFile(self.folder / "own.zip") as bundle:
+            self.assertTrue([name for name in bundle.namelist() if name.endswith("own.stl")], bundle.namelist())
 
     def test_lost_grains_are_noticed(self):
         """The negative control: a deck that takes grains out of the middle without telling."""

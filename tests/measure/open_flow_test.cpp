@@ -64,6 +64,20 @@ TEST(OpenFlow, FlowsAreThoseOfTheCyclesThatCount) {
     EXPECT_FALSE(flow.residence_time);  // nobody is known to have left
 }
 
+// The level along a mesh is that of the mean depth of each bin, where a mesh is given.
+TEST(OpenFlow, TheLevelIsThatOfTheMeanDepth) {
+    std::string const bins = "# head\n# head\n# head\n400 2\n1 0.1 4 160 0.2\n2 0.3 2 80 0.2\n";
+    OpenFacts facts = open_facts(2);
+    OpenFlow const flat = open_flow(steady_flow(), {}, {dump("along.0.txt", bins)}, "/packing", facts);
+    ASSERT_EQ(flat.along.depth.size(), 2u);
+    EXPECT_TRUE(flat.along.level.empty());
+    facts.level = [](double x, double mean_depth) { return 10 * x + mean_depth; };
+    OpenFlow const mesh = open_flow(steady_flow(), {}, {dump("along.0.txt", bins)}, "/packing", facts);
+    EXPECT_EQ(mesh.along.depth, flat.along.depth);
+    ASSERT_EQ(mesh.along.level.size(), 2u);
+    EXPECT_DOUBLE_EQ(mesh.along.level[1], 3 + flat.along.depth[1]);
+}
+
 // The grain with number 3 is the first that was fed, in the middle of the first tenth of cycle 1, at 0.005 s.
 // It is found at the end of cycle 3, 10 mm behind the edge, where it had been for 20 ms: 0.3 - 0.02 - 0.005
 // s. So are those after it, each fed 10 ms later.

@@ -1,6 +1,7 @@
 #include "prepare/prepared_case.hpp"
 
 #include "scenario/example_campaign.hpp"
+#include "scenario/open_mesh.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
 #include <cmath>
@@ -76,6 +77,31 @@ TEST(PreparedCase, AnOpenTroughKeepsTheGrainsThatAreStillOverIt) {
     double const edge = c.scenario.layer.length, excursion = largest_excursion(c.motion);
     EXPECT_GE(open.out_x - c.largest_extent / 2, edge + excursion);
     EXPECT_LE(open.out_near_x + c.largest_extent / 2, edge - excursion);
+}
+
+// The same on a mesh, whose edge may be anywhere: what lies on it is above out_z behind out_near_x, and the
+// box reaches below its lowest point.
+TEST(PreparedCase, AnOpenTroughOfOnesOwnKeepsTheGrainsThatAreStillOverIt) {
+    PreparedCase const flat = prepare_case(open_mesh::scenario_on(open_mesh::slope(0, 0)));
+    for (auto const& [mesh, at_edge, deep] :
+         {std::tuple{open_mesh::slope(0, 0), 0.0, 0.0}, std::tuple{open_mesh::slope(0, 40), 0.036, 0.0},
+          std::tuple{open_mesh::slope(40, 0), 0.0, 0.0}, std::tuple{open_mesh::vee(), 0.0, 0.009}}) {
+        PreparedCase const c = prepare_case(open_mesh::scenario_on(mesh));
+        OpenTrough const &open = c.domain.open.value(), &level = flat.domain.open.value();
+        EXPECT_EQ(open.out_x, level.out_x);
+        EXPECT_LE(open.out_near_x, level.out_near_x - deep + 1e-9);
+        EXPECT_NEAR(open.out_z - level.out_z, at_edge, 0.003);
+        EXPECT_LE(c.box_bottom, flat.box_bottom);
+        EXPECT_GT(open.feed_bottom, c.domain.floor_top * open.feed_end / c.scenario.layer.length);
+        EXPECT_GT(c.fill_bottom, c.domain.floor_top);
+        EXPECT_GT(c.wall_height, open.feed_top);
+        EXPECT_TRUE(c.domain.is_closed);
+    }
+    // Upright walls of the mesh end below the top of the box.
+    std::vector<scenario::Triangle> channel = open_mesh::slope(0, 0);
+    open_mesh::add_walls(channel, 900);
+    PreparedCase const c = prepare_case(open_mesh::scenario_on(channel, open_mesh::campaign("")));
+    EXPECT_GT(c.wall_height, 0.9);
 }
 
 }  // namespace

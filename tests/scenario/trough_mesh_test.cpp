@@ -174,8 +174,10 @@ TEST(TroughMesh, StepsWallsAndHolesAreSeen) {
     channel.pop_back();
     add_rectangle(channel, {0, 20, 0}, {30, 20, 0}, {30, 20, 9}, {0, 20, 9});
     EXPECT_THAT(error_of(channel), HasSubstr("do not reach from the surface to the top"));
-    add_rectangle(channel, {0, 0, 0}, {0, 20, 0}, {0, 20, 9}, {0, 0, 9});
-    EXPECT_THAT(error_of(channel), HasSubstr("an upright plate in one of its ends"));
+    std::vector<Triangle> plate{{Point{0, 0, 0}, Point{30, 0, 0}, Point{30, 20, 0}}};
+    EXPECT_EQ(read(plate)->has_end_plates, (std::array{false, false}));
+    plate.push_back({Point{30, 0, 0}, Point{30, 20, 0}, Point{30, 20, 9}});
+    EXPECT_EQ(read(plate)->has_end_plates, (std::array{false, true}));
 
     std::vector<Triangle> slab;  // a sheet with its thickness, as CAD programs export it
     add_rectangle(slab, {0, 0, 0}, {30, 0, 0}, {30, 20, 0}, {0, 20, 0});
@@ -341,6 +343,11 @@ TEST_F(MeshCampaign, MistakesAreNamed) {
     add_rectangle(slope, {0, 0, 0}, {36, 0, 2}, {36, 18, 2}, {0, 18, 0});
     write("vee.stl", slope);
     EXPECT_THAT(error(on_mesh()), HasSubstr("its two ends along the trough differ by 2 mm in height"));
+    std::vector<Triangle> closed = vee();
+    add_rectangle(closed, {41, -9, 9}, {41, 9, 9}, {41, 9, 12}, {41, -9, 12});
+    write("vee.stl", closed);
+    EXPECT_THAT(error(on_mesh()),
+                HasSubstr("there is an upright plate in one of its ends, which are joined; remove it"));
     std::vector<Triangle> tilted;
     add_rectangle(tilted, {0, 0, 0}, {36, 0, 0}, {36, 18, 2}, {0, 18, 2});
     write("vee.stl", tilted);

@@ -25,7 +25,10 @@ void open(vibrotrough::store::CaseRecord& record) {
             values->assign(packing.series.x.size(), 7);
         packing.open.inflow = packing.open.outflow = 0.05;
         packing.open.window_depth = depth;
-        packing.open.along = {{0.01, 0.02, 0.03, 0.04}, {0.012, 0.012, 0.011, 0.01}, {0.3, 0.3, 0.31, 0.32}};
+        packing.open.along = {{0.01, 0.02, 0.03, 0.04},
+                              {0.012, 0.012, 0.011, 0.01},
+                              {0.3, 0.3, 0.31, 0.32},
+                              {0.017, 0.017, 0.014, 0.01}};
         packing.open.residence.assign(101, 1.5);
     }
     // The second packing has another depth and speed, no grains in the last bin, and longer stays.
@@ -34,6 +37,14 @@ void open(vibrotrough::store::CaseRecord& record) {
     second.along.speed.front() = 0.4;
     second.along.speed.back() = std::numeric_limits<double>::quiet_NaN();
     second.residence.back() = 2.5;
+}
+
+/// A floor that falls towards its edge, in mm.
+std::shared_ptr<vibrotrough::scenario::TroughMesh const> slope() {
+    using vibrotrough::scenario::Point;
+    Point const a{0, 0, 5}, b{40, 0, 0}, c{40, 18, 0}, d{0, 18, 5};
+    return vibrotrough::scenario::read_trough_mesh(
+        {{"slope.stl", vibrotrough::scenario::stl_text("slope", {{a, b, c}, {a, c, d}})}});
 }
 
 /// As if the trough were a screen with openings of 3 mm, on which three of five small grains passed.
@@ -72,6 +83,7 @@ vibrotrough::store::CaseRecord sample_mixture() {
     }
     add_materials(record);
     add_stages(record);
+    record.scenario.trough.mesh = slope();
     return record;
 }
 

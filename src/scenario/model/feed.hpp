@@ -13,7 +13,8 @@ struct Scenario;
 struct Feed {
     std::optional<double> mass_flow = {};  ///< kg/s
     std::optional<double> length = {};     ///< m, along the trough, of the zone that the stream falls into
-    std::optional<double> height = {};     ///< m, above the floor, from which the grains fall
+    /// m, from which the grains fall, above the lowest point of the trough.
+    std::optional<double> height = {};
     /// 1/s, where the flow was given so; mass_flow follows from it.
     std::optional<double> grains_per_second = {};
 };
@@ -30,8 +31,14 @@ double expected_speed(Scenario const& scenario);  ///< m/s
 /// the largest diameters.
 double feed_length(Scenario const& scenario);
 
-/// Height above the floor from which the grains fall, m: as given, or twice the expected height of the layer
-/// and six of the largest diameters.
+/// The highest point of the trough that the stream may fall on, m above its lowest point; 0 of a flat floor.
+double floor_under_feed(Scenario const& scenario);
+
+/// The surface of the expected layer under the stream, at rest, m above the lowest point of the trough.
+double layer_under_feed(Scenario const& scenario);
+
+/// Height from which the grains fall, m above the lowest point of the trough: as given, or above the highest
+/// point under the stream twice the expected height of the layer and six of the largest diameters.
 double feed_height(Scenario const& scenario);
 
 /// Speed at which the stream enters the trough, m/s, so that its grains fill 0.15 of its volume. Loose enough

@@ -68,14 +68,19 @@ std::optional<double> trough_width(Scenario const& s) {
     return {};
 }
 
+double mean_layer_depth(Scenario const& s) {
+    return s.layer.grains * mean_grain_volume(s) / (settled_solid_fraction * s.layer.length * s.layer.width);
+}
+
 double layer_height(Scenario const& s) {
     if (s.layer.height) return *s.layer.height;
-    if (s.trough.mesh) {
-        double const unit = metres_in(s.trough.mesh_unit);
-        double const volume = s.layer.grains * mean_grain_volume(s) / settled_solid_fraction;
-        return unit * s.trough.mesh->level_of(volume / (unit * unit * unit));
-    }
-    return s.layer.grains * mean_grain_volume(s) / (settled_solid_fraction * s.layer.length * s.layer.width);
+    if (!s.trough.mesh) return mean_layer_depth(s);
+    double const unit = metres_in(s.trough.mesh_unit);
+    TroughMesh const& mesh = *s.trough.mesh;
+    // It flows through an open trough, whose lowest end it does not fill as a pond.
+    if (is_open(s)) return unit * mesh.level_across(mean_layer_depth(s) / unit, 0, mesh.extent[0]).depth;
+    double const volume = s.layer.grains * mean_grain_volume(s) / settled_solid_fraction;
+    return unit * mesh.level_of(volume / (unit * unit * unit));
 }
 
 bool writes_frames(OutputPlan const& output, int packing) {

@@ -173,8 +173,13 @@ double mass_per_area(Scenario const& scenario);
 /// periodic across, which is a piece out of a trough of any width.
 std::optional<double> trough_width(Scenario const& scenario);
 
+/// Volume of the layer at rest per area of trough in plan, m, from the number of grains and
+/// settled_solid_fraction.
+double mean_layer_depth(Scenario const& scenario);
+
 /// Height of the layer at rest, m: as given, otherwise from the number of grains and settled_solid_fraction.
-/// On a mesh it is the level above the lowest point.
+/// On a mesh it is the level above the lowest point; in an open trough, whose floor may fall or rise, above
+/// the lowest point of a cross-section, as a mean along it.
 double layer_height(Scenario const& scenario);
 
 /// The files that the scenario names: shape, waveform, extra lines and templates, if it has

@@ -183,9 +183,8 @@ void survey(TroughMesh& mesh) {
     mesh.mismatch_across = mismatch(left, right);
     for (Triangle const& t : mesh.triangles) {
         mesh.area += length(area(t)) / 2;
-        if (lies_at(t, 0, 0) || lies_at(t, 0, length_x))
-            throw std::invalid_argument(
-                "there is an upright plate in one of its ends, which are joined; remove it");
+        if (lies_at(t, 0, 0)) mesh.has_end_plates[0] = true;
+        if (lies_at(t, 0, length_x)) mesh.has_end_plates[1] = true;
         if (lies_at(t, 1, 0) || lies_at(t, 1, width)) continue;
         for (Point const& corner : t) mesh.floor_top = std::max(mesh.floor_top, corner[2]);
     }
@@ -253,7 +252,7 @@ std::shared_ptr<TroughMesh const> read_trough_mesh(std::vector<NamedFile> files)
     Point const extent = move_to_zero(triangles);
     if (!(extent[0] > 0 && extent[1] > 0))
         throw std::invalid_argument("its surface has no length or no width");
-    TroughMesh mesh{std::move(files),        std::move(triangles),     extent, {}, 0, 0, false, 0, 0,
+    TroughMesh mesh{std::move(files),        std::move(triangles),     extent, {}, 0, 0, {}, false, 0, 0,
                     std::move(solids.parts), std::move(solids.part_of)};
     survey(mesh);
     return std::make_shared<TroughMesh const>(std::move(mesh));
@@ -279,6 +278,48 @@ double TroughMesh::level_of(double volume) const {
         (volume_below(middle) < volume ? low : high) = middle;
     }
     return high;
+}
+
+std::array<double, 2> TroughMesh::heights_between(double from, double to) const {
+    std::array<double, 2> range{std::numeric_limits<double>::infinity(), 0};
+    auto const add = [&range](double height) {
+        range = {std::min(range[0], height), std::max(range[1], height)};
+    };
+    for (Triangle const& t : triangles) {
+        if (lies_at(t, 1, 0) || lies_at(t, 1, extent[1])) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            Point const &a = t[k], &b = t[(k + 1) % 3];
+            if (a[0] >= from && a[0] <= to) add(a[2]);
+            for (double const end : {from, to})  // where an edge crosses it
+                if ((a[0] - end) * (b[0] - end) < 0) add(a[2] + (end - a[0]) / (b[0] - a[0]) * (b[2] - a[2]));
+        }
+    }
+    return range;
+}
+
+LevelLayer TroughMesh::level_across(double mean_depth, double from, double to) const {
+    auto const column = [this](double x) {
+        return static_cast<std::size_t>(std::clamp(x / extent[0] * places, 0.0, places - 1.0));
+    };
+    LevelLayer mean{0, 0};
+    double count = 0;
+    for (std::size_t i = column(from); i <= column(to); ++i) {
+        std::vector<double> across(heights.begin() + static_cast<std::ptrdiff_t>(i * places),
+                                   heights.begin() + static_cast<std::ptrdiff_t>((i + 1) * places));
+        std::ranges::sort(across);
+        // The level that leaves this depth above the lowest k places, which are all that are below it.
+        double const bottom = across.front();
+        double depth = 0, sum = 0;
+        for (std::size_t k = 1; k <= places; ++k) {
+            sum += across[k - 1] - bottom;
+            depth = (mean_depth * places + sum) / static_cast<double>(k);
+            if (k == places || depth <= across[k] - bottom) break;
+        }
+        ++count;
+        mean.depth += (depth - mean.depth) / count;
+        mean.height += (bottom + depth - mean.height) / count;
+    }
+    return mean;
 }
 
 double TroughMesh::share_in_plan(std::string_view part) const {

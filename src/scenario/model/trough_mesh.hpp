@@ -30,6 +30,12 @@ std::string_view name_of(MeshUnit unit);
 /// Metres in a unit of a mesh.
 double metres_in(MeshUnit unit);
 
+/// A layer that rests in a trough: means over the cross-sections.
+struct LevelLayer {
+    double depth;   ///< its surface above the lowest point of a cross-section
+    double height;  ///< its surface above the lowest point of the trough
+};
+
 /// A mesh as read from a file, moved so that its box begins at 0 in every direction. Nodes that are within a
 /// millionth of its ends along and across are put exactly there. Cases that name the same file share it. All
 /// lengths are in the unit of the file.
@@ -41,7 +47,8 @@ struct TroughMesh {
     /// not vertical. NaN where there is none.
     std::vector<double> heights;
     double mismatch_along;  ///< largest difference in height between its two ends, which a periodic box joins
-    double mismatch_across;  ///< the same between its two sides
+    double mismatch_across;              ///< the same between its two sides
+    std::array<bool, 2> has_end_plates;  ///< whether upright plates stand in its first and its last end
     bool has_upright_sides;  ///< whether upright walls close both of its sides, from the surface to its top
     double floor_top;        ///< height of the highest node of a triangle that does not lie in a side
     double area;             ///< of all triangles
@@ -58,6 +65,13 @@ struct TroughMesh {
     double volume_below(double level) const;
     /// The level below which there is this volume.
     double level_of(double volume) const;
+    /// Its lowest and its highest point between two places along it, without walls in its sides.
+    /// @pre its box in plan is covered
+    std::array<double, 2> heights_between(double from, double to) const;
+    /// The layer that rests between two places along it, its surface level across it.
+    /// @param mean_depth  volume of the layer per area in plan
+    /// @pre its box in plan is covered
+    LevelLayer level_across(double mean_depth, double from, double to) const;
     /// The share of its area in plan that a part has, 0 to 1.
     double share_in_plan(std::string_view part) const;
 };
@@ -65,8 +79,7 @@ struct TroughMesh {
 /// Reads STL files, text or binary, whose lengths have one unit and one origin.
 /// @throws std::invalid_argument with one line that describes what is wrong with it: no STL, no triangles,
 /// more than 1 MiB as text (about 4000 triangles), one without area, a mesh without length or width, two
-/// surfaces above each other, two files with one name, a plate across the trough in one of its ends, or walls
-/// that leave a part of the sides open
+/// surfaces above each other, two files with one name, or walls that leave a part of the sides open
 std::shared_ptr<TroughMesh const> read_trough_mesh(std::vector<NamedFile> files);
 
 /// Divides triangles until no edge is longer than `longest`: the longest edge is cut in the middle, for all

@@ -125,9 +125,8 @@ constexpr std::array rows_of_grains{
     Key{"feed.mass_flow", quantity, "kg/s", 1e-9, 1e5, "above 0", "height of the layer", required,
         "\"0.2 t/h\"",
         "makes the trough an open one: it is empty at first, grains fall in at its back wall with this mass "
-        "flow "
-        "and leave it over its edge; needs trough.side_wall_friction. \"500 1/s\": grains of the mean mass "
-        "per time",
+        "flow and leave it over its edge; needs trough.side_wall_friction or a mesh with upright sides. "
+        "\"500 1/s\": grains of the mean mass per time",
         KeyAccess{[](Scenario const& s) { return content_of(s.feed.mass_flow); },
                   [](Scenario& s, GivenValue const& v) { set_feed(s.feed, v); }}},
     Key{"feed.length", quantity, "m", 1e-6, 10, "at least 4 of the largest diameters", "", optional,
@@ -136,8 +135,8 @@ constexpr std::array rows_of_grains{
         "not given",
         field<&Scenario::feed, &Feed::length>},
     Key{"feed.height", quantity, "m", 1e-6, 10, "above the layer", "", optional, "\"40 mm\"",
-        "height above the floor from which the feed falls; when the layer reaches it, the case ends as "
-        "overfull",
+        "height above the floor, or above the lowest point of the mesh, from which the feed falls; when the "
+        "layer reaches it, the case ends as overfull",
         field<&Scenario::feed, &Feed::height>},
 
     Key{"screen.opening", quantity, "m", 0, 1, "0 to 1 m", "", optional, "\"5 mm\"",

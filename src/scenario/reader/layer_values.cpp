@@ -31,14 +31,57 @@ void check_floor(Layer const& layer, double diameter, GivenKeys const& given) {
                "make the box smaller or the grains larger; is the unit of the diameter right?");
 }
 
-/// The floor of a mesh need not be level, but its ends and its sides must fit to those of their periodic
-/// images, or the sides must be upright walls.
+[[noreturn]] void fail_mesh(Scenario const& scenario, GivenKeys const& given, std::string_view wrong,
+                            std::string_view instead) {
+    given.fail("trough.mesh", fmt::format("{}: {}", scenario.trough.mesh->names(), wrong), instead);
+}
+
+/// The ends and the sides of a mesh must fit to those of their periodic images, or the sides must be upright
+/// walls.
+void check_periodic_mesh(Scenario const& scenario, GivenKeys const& given) {
+    TroughMesh const& mesh = *scenario.trough.mesh;
+    double const unit = metres_in(scenario.trough.mesh_unit), allowed = 0.01 * smallest_diameter(scenario);
+    auto const [start, end] = mesh.has_end_plates;
+    if (start || end)
+        fail_mesh(scenario, given, "there is an upright plate in one of its ends, which are joined",
+                  "remove it");
+    if (unit * mesh.mismatch_along > allowed) {
+        fail_mesh(scenario, given,
+                  fmt::format("its two ends along the trough differ by {} in height, but the box is periodic",
+                              given.text("layer.length", unit * mesh.mismatch_along)),
+                  "make both ends the same: a step down needs a rise of the same height; or write a section "
+                  "[feed], for an open trough");
+    }
+    if (unit * mesh.mismatch_across > allowed && !mesh.has_upright_sides) {
+        fail_mesh(scenario, given,
+                  fmt::format("its two sides differ by {} in height, but the box is periodic across",
+                              given.text("layer.width", unit * mesh.mismatch_across)),
+                  "make both sides the same, or put upright walls there");
+    }
+    if (scenario.trough.side_wall_friction)
+        given.fail("trough.side_wall_friction", "is given together with a mesh, which has its own walls",
+                   "remove it");
+}
+
+/// An open trough has a back wall of its own and needs walls at its sides: the mesh's, or plain ones.
+void check_open_mesh(Scenario const& scenario, GivenKeys const& given) {
+    TroughMesh const& mesh = *scenario.trough.mesh;
+    if (mesh.has_end_plates[0])
+        fail_mesh(
+            scenario, given,
+            "there is an upright plate in its first end, where an open trough has a back wall of its own",
+            "remove it");
+    if (mesh.has_upright_sides && scenario.trough.side_wall_friction)
+        given.fail("trough.side_wall_friction", "is given together with a mesh that has walls of its own",
+                   "remove it, or the upright walls from the mesh");
+}
+
+/// The floor of a mesh need not be level.
 void check_mesh(Scenario const& scenario, GivenKeys const& given) {
-    constexpr char const* key = "trough.mesh";
     TroughMesh const& mesh = *scenario.trough.mesh;
     double const unit = metres_in(scenario.trough.mesh_unit);
     auto const fail = [&](std::string_view wrong, std::string_view instead) {
-        given.fail(key, fmt::format("{}: {}", mesh.names(), wrong), instead);
+        fail_mesh(scenario, given, wrong, instead);
     };
     auto const check_side = [&](char const* side, char const* adjective, double given_side, double extent) {
         if (std::abs(given_side - extent) <= 1e-6 * extent) return;
@@ -61,20 +104,7 @@ void check_mesh(Scenario const& scenario, GivenKeys const& given) {
                          given.text("grains.diameter", size), most_grains_on_floor),
              "take a smaller piece of the trough or larger grains; is mesh_unit right?");
     }
-    double const allowed = 0.01 * size;
-    if (unit * mesh.mismatch_along > allowed) {
-        fail(fmt::format("its two ends along the trough differ by {} in height, but the box is periodic",
-                         given.text("layer.length", unit * mesh.mismatch_along)),
-             "make both ends the same: a step down needs a rise of the same height");
-    }
-    if (unit * mesh.mismatch_across > allowed && !mesh.has_upright_sides) {
-        fail(fmt::format("its two sides differ by {} in height, but the box is periodic across",
-                         given.text("layer.width", unit * mesh.mismatch_across)),
-             "make both sides the same, or put upright walls there");
-    }
-    if (scenario.trough.side_wall_friction)
-        given.fail("trough.side_wall_friction", "is given together with a mesh, which has its own walls",
-                   "remove it");
+    is_open(scenario) ? check_open_mesh(scenario, given) : check_periodic_mesh(scenario, given);
     if (scenario.layer.block != Block::none)
         given.fail("layer.block", "a block needs the flat floor, and trough.mesh is given",
                    "remove one of the two");
@@ -140,14 +170,13 @@ void check_parts_of_open(Scenario const& s, GivenKeys const& given) {
     auto const refuse = [&](bool is_given, char const* key, char const* wrong) {
         if (is_given) given.fail(key, wrong, "remove it, or the section [feed]");
     };
-    refuse(s.trough.mesh != nullptr, "trough.mesh", "an open trough has a flat floor");
     refuse(is_clump(s.grains), "grains.shape", "an open trough is fed with spheres");
     refuse(!s.materials.empty(), "materials.1.name", "an open trough is fed with one material");
     refuse(s.output.contacts, "output.contacts", "contacts are not written of an open trough");
     if (!s.stages.empty())
         given.fail(given.has("stages.1.time") ? "stages.1.time" : "stages.1.cycles",
                    "the drive of an open trough has no stages", "remove [[stages]], or the section [feed]");
-    if (s.trough.side_wall_friction) return;
+    if (s.trough.side_wall_friction || (s.trough.mesh && s.trough.mesh->has_upright_sides)) return;
     given.fail("feed.mass_flow",
                "an open trough needs side walls, and there are none: it is not periodic across",
                "write side_wall_friction below [trough], 0 for smooth walls");
@@ -186,12 +215,18 @@ void complete_feed(Scenario& s, GivenKeys const& given) {
                 given.text("grains.diameter", largest)),
             fmt::format("write feed.length = \"{}\", or lengthen the trough",
                         given.text("feed.length", 4 * largest)));
-    if (feed_height(s) < 3 * largest)
-        given.fail("feed.height",
-                   fmt::format("{} is less than 3 of the largest diameters: grains would find no room above "
-                               "those that lie on the floor",
-                               given.text("feed.height", feed_height(s))),
-                   fmt::format("write at least \"{}\"", given.text("feed.height", 3 * largest)));
+    double const floor = floor_under_feed(s), least_height = floor + 3 * largest;
+    if (feed_height(s) < least_height)
+        given.fail(
+            "feed.height",
+            fmt::format("{} is less than 3 of the largest diameters{}: grains would find no room above "
+                        "those that lie on the floor",
+                        given.text("feed.height", feed_height(s)),
+                        floor > 0 ? fmt::format(" above the highest point of the mesh under the feed, "
+                                                "which is {} above its lowest one",
+                                                given.text("feed.height", floor))
+                                  : ""),
+            fmt::format("write at least \"{}\"", given.text("feed.height", least_height)));
     if (feed_speed(s) > fastest)
         given.fail(
             "feed.mass_flow",
