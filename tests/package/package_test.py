@@ -142,7 +142,7 @@ class Package(Unpacked):
 
     def test_what_to_cite(self):
         self.assertIn("Powder Technology 87 (1996) 203-210", call(self.program, "cite").stdout)
-        self.assertEqual(call(self.program, "cite", "--bibtex").stdout.count("@"), 3)
+        self.assertEqual(call(self.program, "cite", "--bibtex").stdout.count("@"), 4)
 
 
 class Campaign(Unpacked):
