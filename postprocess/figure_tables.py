@@ -126,7 +126,7 @@ def plot_along(source: "Source", case: str, result: vibrotrough.File, output: pa
     for axes, name, factor, label in ((panels[0], "depth", 1e3, "settled depth  [mm]"), (panels[1], "velocity", 1, "speed  [m/s]")):
         mean, half_width = (factor * column(result, "along_trough", name + end) for end in ("", "_half_width"))
         draw_band(axes, place, mean, half_width)
-        axes.set(ylabel=label, ylim=(0, None))
+        axes.set(ylabel=label, ylim=(min(0.0, axes.get_ylim()[0]) if name == "velocity" else 0, None))
     panels[1].set(xlabel="distance along the trough from the back wall  [mm]")
     panels[0].get_figure().align_ylabels()
     return finish(source, case, panels[0], output)

@@ -1,6 +1,7 @@
 #include "atlas/atlas.hpp"
 
 #include "atlas/tables.hpp"
+#include "atlas/unknown.hpp"
 #include "theory/point_mass.hpp"
 
 #include <cmath>
@@ -91,13 +92,14 @@ double carried(prepare::PreparedCase const& p, Place place, double depth) {
     return bulk_density(s.grains) * s.layer.width * depth * mean_diameter(s) * speed / *s.feed.mass_flow;
 }
 
-/// The depth, in diameters, of the layer that carries the feed; nothing where no layer moves forward. Beyond
-/// what the atlas says anything about, it is the depth at the speed there.
+/// The depth, in diameters, of the layer that carries the feed, if a deeper layer carries more; nothing where
+/// the deepest does not move forward. Beyond what the atlas says anything about, it is the depth at the speed
+/// there.
 std::optional<double> fed_depth(prepare::PreparedCase const& p, Place const& place) {
     auto const [key, least, most] = inputs()[depth_input];
     double low = least - farthest * (most - least), high = most + farthest * (most - least);
     double const shallow = carried(p, place, low), deep = carried(p, place, high);
-    if (!(shallow > 0 && deep > 0)) return {};
+    if (!(deep > 0)) return {};
     if (shallow > 1) return low / shallow;
     if (deep < 1) return high / deep;
     while (high - low > 1e-6) {
@@ -114,12 +116,17 @@ Answer predict(prepare::PreparedCase const& prepared) {
     if (!answer.is_inside()) return answer;
     Place place = numbers_of(prepared);
     if (prepared.domain.open) {
+        place[depth_input] = middle_of(depth_input);
+        if (is_far_outside(place)) {
+            answer.outside = out_of_range(prepared, place);
+            return answer;
+        }
         auto const depth = fed_depth(prepared, place);
-        if (!depth) {
+        if (!depth && efficiency_at(place)) {
             answer.outside.push_back({"feed", "a layer that does not move forward"});
             return answer;
         }
-        place[depth_input] = *depth;
+        place[depth_input] = depth.value_or(place[depth_input]);
     }
     answer.outside = out_of_range(prepared, place);
     if (is_far_outside(place)) return answer;

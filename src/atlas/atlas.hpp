@@ -32,9 +32,9 @@ struct Answer {
 /// that of a layer of the depth h, and rho_b the bulk density. Its half-width is that of h with the interval
 /// of v.
 ///
-/// A layer of another kind (clumps, several materials, side walls with friction closer than 20 diameters, a
-/// drive that is not a sinusoid, ...) has no efficiency. A layer of the same kind with inputs outside of
-/// the ranges has one, which is an extrapolation, up to a quarter of a range beyond it.
+/// A layer of another kind (clumps, several materials, side walls closer than 20 diameters, which may be
+/// smooth in an open trough, a drive that is not a sinusoid, ...) has no efficiency. A layer of the same kind
+/// with inputs outside of the ranges has one, which is an extrapolation, up to a quarter of a range beyond it.
 Answer predict(prepare::PreparedCase const& prepared);
 
 /// The numbers without a dimension of a layer, in the order of inputs(), whether they lie within the ranges

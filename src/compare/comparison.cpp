@@ -57,6 +57,7 @@ void add_rolling_layer(Row& row, prepare::PreparedCase const& prepared) {
 
 /// Adds what the atlas says of a layer that lies inside of it.
 void add_atlas(Row& row, prepare::PreparedCase const& prepared) {
+    if (prepared.domain.open) return;  // how deep a feed makes its layer was not held against simulations
     atlas::Answer const answer = atlas::predict(prepared);
     if (!answer.is_inside()) return;
     row.efficiency_atlas = answer.efficiency;

@@ -17,7 +17,7 @@ struct AtomType {
         grains,     ///< of one material
         trough,     ///< its floor or mesh
         part,       ///< a part of the mesh with a contact of its own
-        side_wall,  ///< the side walls beside the flat floor
+        side_wall,  ///< the side walls beside a flat floor or the mesh of an open trough
     };
     Kind kind;                                     ///< what it stands for
     scenario::Material const* material = nullptr;  ///< of grains

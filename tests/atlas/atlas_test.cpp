@@ -114,6 +114,9 @@ TEST(Atlas, AFedLayerMayBeTooShallowOrTooDeepForIt) {
     }
     std::string const rough = with("side_wall_friction = 0", "side_wall_friction = 0.2", fed("0.25 t/h"));
     EXPECT_EQ(names_outside(rough), Names{"trough.side_wall_friction"});
+    // A drive far outside is named as such.
+    EXPECT_EQ(names_outside(with("throw_number = 2.0", "throw_number = 6.0", fed("0.25 t/h"))),
+              Names{"throw_number"});
     std::string const up = with("inclination = \"0 deg\"", "tan_inclination = 0.1", inside_layer);
     EXPECT_EQ(names_outside(with("throw_number = 2.0", "throw_number = 0.75", fed("0.25 t/h", up))),
               Names{"feed"});

@@ -51,6 +51,9 @@ class Predict(EndToEndTest):
         (fed,) = json.loads(self.predict(feed, "--json"))
         self.assertTrue(fed["inside"], fed)
         self.assertAlmostEqual(1400 * 0.58 * 0.015 * fed["fed_depth_m"] * fed["speed_m_per_s"], 200 / 3600, delta=1e-6)
+        # The power per area is that per mass times the mass: the uncertain depth widens its interval.
+        width = fed["power_per_area_half_width_w_per_m2"] / fed["power_per_area_w_per_m2"]
+        self.assertGreater(width, fed["fed_depth_half_width_m"] / fed["fed_depth_m"])
         self.assertIn(f"fed: {1e3 * fed['fed_depth_m']:.3g} +- ", self.predict(feed))
 
     def test_a_wrong_file(self):

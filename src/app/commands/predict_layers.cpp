@@ -48,7 +48,9 @@ atlas::Bounded power_per_area(atlas::LayerLoad const& load, prepare::PreparedCas
     auto const [value, half_width] = power_per_mass(load, s.trough.amplitude, s.trough.frequency);
     double const mass_per_area = fed_depth ? bulk_density(s.grains) * fed_depth->value
                                            : prepared.mass / (s.layer.length * s.layer.width);
-    return {mass_per_area * value, mass_per_area * half_width};
+    // The depth follows from the same speed as everything else, so that its error is not independent.
+    double const by_depth = fed_depth ? value * bulk_density(s.grains) * fed_depth->half_width : 0;
+    return {mass_per_area * value, mass_per_area * half_width + by_depth};
 }
 
 PredictedLayer predict_layer(prepare::PreparedCase const& prepared, std::string const& label) {
