@@ -34,7 +34,8 @@ struct Answer {
 ///
 /// A layer of another kind (clumps, several materials, side walls closer than 20 diameters, which may be
 /// smooth in an open trough, a drive that is not a sinusoid, ...) has no efficiency. A layer of the same kind
-/// with inputs outside of the ranges has one, which is an extrapolation, up to a quarter of a range beyond it.
+/// with inputs outside of the ranges has one, which is an extrapolation, up to a quarter of a range beyond
+/// it.
 Answer predict(prepare::PreparedCase const& prepared);
 
 /// The numbers without a dimension of a layer, in the order of inputs(), whether they lie within the ranges
