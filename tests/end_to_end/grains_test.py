@@ -4,7 +4,7 @@ import unittest
 
 import h5py
 
-from trough_program import WHOLE, EndToEndTest, sample
+from trough_program import WHOLE, EndToEndTest, at_night, sample
 
 QUICK = {"measure.packings": 1, "measure.max_cycles": 24, "measure.half_width": 0.5}
 
@@ -52,12 +52,14 @@ class Grains(EndToEndTest):
         [row] = self.table()
         self.assertAlmostEqual(row["speed_of_grains_m_per_s"], row["conveying_speed_m_per_s"], delta=1e-7 * row["frequency_hz"])
 
+    @at_night
     def test_sizes(self):
         by_list = {"grains.diameter": None, "grains.diameter_spread": None, "grains.diameters": ["2 mm", "3 mm", "3.5 mm"]}
         self.run_cases({**by_list, "grains.mass_fractions": [0.2, 0.5, 0.3]})
         self.run_cases({"grains.diameter": "2.4 mm", "grains.size_law": "lognormal", "grains.diameter_spread": 0.15})
         self.run_cases({"grains.size_law": "uniform", "grains.diameter_spread": 0.2})
 
+    @at_night
     def test_a_run_that_ends_within_an_impact_is_not_called_wrong(self):
         """The fourth packing of this single grain ends while the trough throws it up. Force and velocity of that instant
         do not belong to the same step, which is more than the balance of momentum allowed for at first."""

@@ -8,7 +8,7 @@ import zipfile
 import h5py
 import numpy as np
 
-from trough_program import EndToEndTest
+from trough_program import EndToEndTest, at_night
 
 OPEN = {
     "layer.grains": None,
@@ -115,6 +115,7 @@ class OpenTrough(EndToEndTest):
         lost = flow["held_mass"][0] + flow["fed_mass"] - flow["held_mass"] - np.cumsum(flow["left_mass"])
         self.assertLess(np.abs(lost).max(), 1e-12 * flow["fed_mass"][-1])
 
+    @at_night
     def test_a_flat_mesh_is_the_flat_floor(self):
         """The same feed, walls and grains on other triangles: the same flow, and a layer that is as deep and as fast as the flat
         floor's within the scatter of one short packing."""
