@@ -42,7 +42,7 @@ def finish(source: "Source", case: str, axes: Axes, output: pathlib.Path) -> lis
 
 
 def draw_band(axes: Axes, over: Floats, mean: Floats, half_width: Floats, number: int = 0, label: str = "") -> None:
-    """A line with its interval as a band; of one packing there is no band."""
+    """A line with its interval as a band, which one packing does not have."""
     axes.plot(over, mean, color=COLOURS[number], linestyle=DASHES[number], linewidth=1.4, label=label)
     axes.fill_between(over, mean - half_width, mean + half_width, color=COLOURS[number], alpha=0.2, linewidth=0)
     axes.margins(x=0.01)

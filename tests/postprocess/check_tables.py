@@ -148,7 +148,7 @@ def check_residence():
     np.testing.assert_allclose(axes.lines[0].get_data(), [[1, 2, 4], [0, 0.5, 1]])
     assert {(0.9, 0), (1.1, 0), (1.8, 0.5), (2.2, 0.5), (3.5, 1), (4.5, 1)} <= band_of(axes)
     assert list(axes.lines[1].get_xdata()) == [2.25, 2.25]
-    # Where the mean is not known there is no plug flow to compare with; with one packing there is no band.
+    # Plug flow is compared with where the mean is known; one packing has no band.
     alone = {**result, "case/residence_time": np.array(np.nan), "residence_times/time_half_width": np.full(3, np.nan)}
     axes = drawn(figure_tables.plot_residence, alone)
     assert len(axes.lines) == 1 and axes.collections[0].get_paths() == []
