@@ -106,7 +106,7 @@ def plot_partition(source: "Source", case: str, result: vibrotrough.File, output
 def plot_segregation(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:
     cycle = column(result, "segregation", "cycle")
     if len(cycle) == 0:
-        return []
+        return plot_materials_along(source, case, result, output)
     _, axes = new_figure()
     for number in range(4):
         index, half_width = (column(result, "segregation", f"{name}_{number}") for name in ("index", "half_width"))
@@ -116,6 +116,26 @@ def plot_segregation(source: "Source", case: str, result: vibrotrough.File, outp
     axes.axhline(0, color="#999999", linewidth=0.6)
     axes.set(xlabel="cycle  [-]", ylabel="segregation index, 1 on top of the others  [-]")
     return finish(source, case, axes, output)
+
+
+def plot_materials_along(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:
+    """A mixture in an open trough: the share of each material and its segregation index along the trough."""
+    place = 1e3 * column(result, "materials_along", "x")
+    if len(place) == 0:
+        return []
+    _, panels = new_figure(2, 1, sharex=True)
+    names = np.asarray(result["materials_along/material"]).astype(str)
+    for axes, column_name, label in ((panels[0], "share", "share of the mass  [-]"), (panels[1], "segregation", "segregation index  [-]")):
+        mean, half_width = (column(result, "materials_along", column_name + end) for end in ("", "_half_width"))
+        for number, name in enumerate(dict.fromkeys(names)):
+            rows = names == name
+            draw_band(axes, place[rows], mean[rows], half_width[rows], number, name)
+        axes.set(ylabel=label)
+    panels[0].set(ylim=(-0.03, 1.03))
+    panels[1].axhline(0, color="#999999", linewidth=0.6)
+    panels[1].set(xlabel="distance along the trough from the back wall  [mm]", ylim=(-1.05, 1.05))
+    panels[0].get_figure().align_ylabels()
+    return finish(source, case, panels[0], output)
 
 
 def plot_along(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:

@@ -54,7 +54,7 @@ CASE_FIGURES = [
     ("profiles", "Velocity over height"),
     ("impacts", "How often impacts have which energy"),
     ("partition", "Partition curve of the screen"),
-    ("segregation", "Segregation of the materials over time"),
+    ("segregation", "Segregation of the materials"),
     ("along", "Depth and speed along the trough"),
     ("residence", "How long the grains stay in the trough"),
     ("stages", "Speed over the cycles of the stages"),

@@ -68,8 +68,9 @@ std::vector<core::TemplateData> describe_classes(prepare::PreparedCase const& n,
         entry.set("of_material",
                   n.materials.size() == 1 ? std::string() : fmt::format(" ({})", material_of(n, size).name));
         entry.set("count_so_far", std::to_string(so_far));
-        entry.set("mass_share",
-                  rounded(size.count * material_of(n, size).grains.density * std::pow(size.diameter, 3)));
+        bool const is_fed_mixture = is_open(n.scenario) && n.materials.size() > 1;
+        entry.set("mass_share", rounded((is_fed_mixture ? size.share : size.count) *
+                                        material_of(n, size).grains.density * std::pow(size.diameter, 3)));
         entry.set("template", template_of(n, size, index));
         entry.set("insertion_seed", std::to_string(seed_number(stride * (packing - 1) + index)));
         entry.set("distribution_seed", std::to_string(seed_number(4010 + 100 + index)));
@@ -257,8 +258,9 @@ void describe_output(core::TemplateData& data, scenario::Scenario const& s, prep
     data.set("checkpoint_cycles", std::to_string(s.output.checkpoint_cycles));
 }
 
-/// The columns of cycles.csv that a mixture has in addition: where the centre of mass of each material is.
-void describe_material_columns(core::TemplateData& data, prepare::PreparedCase const& n) {
+/// The materials of a mixture. Of a layer that keeps its grains, cycles.csv also has the place of the centre
+/// of mass of each.
+void describe_mixture(core::TemplateData& data, prepare::PreparedCase const& n) {
     std::vector<core::TemplateData> groups;
     std::string columns, values;
     for (int i = 0; n.materials.size() > 1 && i < static_cast<int>(n.materials.size()); ++i) {
@@ -266,10 +268,12 @@ void describe_material_columns(core::TemplateData& data, prepare::PreparedCase c
         group.set("number", std::to_string(i));
         group.set("type", std::to_string(atom_type_of(n, i)));
         groups.push_back(std::move(group));
+        if (n.domain.open) continue;
         columns += fmt::format(",x_{0},z_{0}", i);
         values += fmt::format(",${{x_{0}}},${{z_{0}}}", i);
     }
     data.set("mixture", n.materials.size() > 1);
+    data.set("kept_mixture", n.materials.size() > 1 && !n.domain.open);
     data.set("material_groups", std::move(groups));
     data.set("material_columns", columns);
     data.set("material_values", values);
@@ -361,7 +365,7 @@ core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& p
     describe_packing(data, n);
     describe_drive(data, n);
     describe_output(data, s, n.time, packing.number);
-    describe_material_columns(data, n);
+    describe_mixture(data, n);
     return data;
 }
 

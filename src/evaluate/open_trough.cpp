@@ -1,5 +1,6 @@
 #include "evaluate/open_trough.hpp"
 
+#include "deck/atom_types.hpp"
 #include "measure/mass_flow.hpp"
 #include "measure/open_flow.hpp"
 
@@ -28,9 +29,16 @@ void measure_open(store::PackingRecord& record, prepare::PreparedCase const& pre
                           double x, double mean_depth) {
             return unit * mesh->level_across(mean_depth / unit, (x - half) / unit, (x + half) / unit).height;
         };
-    record.open =
-        measure::open_flow(record.series, measure::parse_left(files.snapshots, record.steps_per_cycle),
-                           files.snapshots, files.folder, facts);
+    bool const is_mixture = prepared.materials.size() > 1;
+    if (is_mixture) {
+        facts.mixture.window_start = open.window_start;
+        facts.mixture.window_end = open.window_end;
+        for (int i = 0; i < static_cast<int>(prepared.materials.size()); ++i)
+            facts.mixture.types.push_back(deck::atom_type_of(prepared, i));
+    }
+    record.open = measure::open_flow(record.series,
+                                     measure::parse_left(files.snapshots, record.steps_per_cycle, is_mixture),
+                                     files.snapshots, files.folder, facts);
 }
 
 std::string unsteady_flow(store::CaseRecord const& record) {

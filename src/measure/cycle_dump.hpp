@@ -14,13 +14,13 @@ namespace vibrotrough::measure {
 /// One grain of a dump.
 struct DumpedGrain {
     int cycle;                     ///< at whose end it was found, from 1
-    std::array<double, 4> values;  ///< of the columns; those that there are not are 0
+    std::array<double, 5> values;  ///< of the columns; those that there are not are 0
 };
 
 /// Reads NAME.STEP.dump of a packing, one file for each start of the engine. What a later start repeated
 /// replaces what the earlier one wrote. An incomplete last snapshot is left out.
 /// @param name     "left" or "passed"
-/// @param columns  of the dump, four at most, such as "id x vx"
+/// @param columns  of the dump, five at most, such as "id x vx"
 /// @throws InputError naming the file when it is damaged
 std::vector<DumpedGrain> parse_cycle_dumps(std::vector<core::TextFile> const& files, std::string_view name,
                                            std::string_view columns, int steps_per_cycle);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -20,15 +21,23 @@ double mean_of(std::vector<double> const& values, int from, int to) {
     return std::accumulate(values.begin() + from, values.begin() + to, 0.0) / (to - from);
 }
 
-/// s, when each grain was fed and when it passed the edge. The numbers of the grains follow the order in
+/// The grains that left in the cycles that count.
+std::vector<LeftGrain> counted(std::vector<LeftGrain> const& left, OpenFacts const& facts) {
+    std::vector<LeftGrain> found;
+    std::ranges::copy_if(left, std::back_inserter(found), [&](LeftGrain const& grain) {
+        return grain.cycle > facts.discarded && grain.cycle <= facts.used;
+    });
+    return found;
+}
+
+/// From when each grain was fed until it passed the edge. The numbers of the grains follow the order in
 /// which they were fed, evenly within a cycle; behind the edge they fly with a steady speed.
-std::vector<double> residence_times(CycleSeries const& series, std::vector<LeftGrain> const& left,
-                                    OpenFacts const& facts) {
+std::vector<Stay> stays_of(CycleSeries const& series, std::vector<LeftGrain> const& left,
+                           OpenFacts const& facts) {
     std::vector<double> const& fed = series.open.fed;
     double const first = series.open.held.front();  // grains that were there before the drive
-    std::vector<double> times;
+    std::vector<Stay> stays;
     for (LeftGrain const& grain : left) {
-        if (grain.cycle <= facts.discarded || grain.cycle > facts.used) continue;
         double const number = static_cast<double>(grain.id) - first;
         if (number < 1) continue;
         auto const after = std::ranges::lower_bound(fed, number);
@@ -39,15 +48,17 @@ std::vector<double> residence_times(CycleSeries const& series, std::vector<LeftG
         double const before = *(after - 1), share = (number - 0.5 - before) / (*after - before);
         double const flown =
             grain.vx > 0 ? std::clamp((grain.x - facts.edge) / grain.vx, 0.0, facts.period) : 0;
-        times.push_back((grain.cycle - cycle + 1 - share) * facts.period - flown);
+        stays.push_back({(grain.cycle - cycle + 1 - share) * facts.period - flown, grain.type});
     }
-    std::ranges::sort(times);
-    return times;
+    return stays;
 }
 
-void add_residence(OpenFlow& flow, std::vector<double> const& times) {
-    constexpr std::size_t fewest = 20, parts = 100;
-    if (times.size() < fewest) return;
+void add_residence(OpenFlow& flow, std::vector<Stay> const& stays) {
+    constexpr std::size_t parts = 100;
+    if (stays.size() < fewest_stays) return;
+    std::vector<double> times;
+    for (Stay const& stay : stays) times.push_back(stay.time);
+    std::ranges::sort(times);
     auto const count = static_cast<double>(times.size());
     double const mean = std::accumulate(times.begin(), times.end(), 0.0) / count;
     double squares = 0;
@@ -58,32 +69,35 @@ void add_residence(OpenFlow& flow, std::vector<double> const& times) {
     for (std::size_t i = 0; i <= parts; ++i) flow.residence.push_back(times[i * (times.size() - 1) / parts]);
 }
 
+/// The bins of the trough at the times that count.
+std::vector<Snapshot> on_trough(std::vector<Snapshot> snapshots, OpenFacts const& facts) {
+    std::erase_if(snapshots, [&](Snapshot const& one) {
+        return one.step <= static_cast<long>(facts.discarded) * facts.steps_per_cycle ||
+               one.step > static_cast<long>(facts.used) * facts.steps_per_cycle;
+    });
+    for (Snapshot& one : snapshots)
+        std::erase_if(one.bins, [&](Bin const& bin) {
+            return bin.position < 0 || bin.position > facts.edge || bin.means.empty();
+        });
+    return snapshots;
+}
+
 AlongTrough along_trough(std::vector<Snapshot> const& snapshots, OpenFacts const& facts) {
     AlongTrough along;
-    int count = 0;
-    std::vector<double> grains;
-    for (Snapshot const& one : snapshots) {
-        if (one.step <= static_cast<long>(facts.discarded) * facts.steps_per_cycle ||
-            one.step > static_cast<long>(facts.used) * facts.steps_per_cycle)
-            continue;
-        std::size_t place = 0;
-        for (Bin const& bin : one.bins) {
-            if (bin.position < 0 || bin.position > facts.edge || bin.means.empty()) continue;
-            if (place == along.x.size()) {
-                along.x.push_back(bin.position);
-                for (auto* const list : {&along.depth, &along.speed, &grains}) list->push_back(0);
-            }
-            along.depth[place] += bin.density * facts.box_section / (facts.bulk_density * facts.width);
-            along.speed[place] += bin.grains * bin.means[0];
-            grains[place++] += bin.grains;
+    if (snapshots.empty()) return along;
+    auto const count = static_cast<double>(snapshots.size());
+    for (std::size_t place = 0; place < snapshots.front().bins.size(); ++place) {
+        double depth = 0, speed = 0, grains = 0;
+        for (Snapshot const& one : snapshots) {
+            Bin const& bin = one.bins.at(place);
+            depth += bin.density * facts.box_section / (facts.bulk_density * facts.width);
+            speed += bin.grains * bin.means[0];
+            grains += bin.grains;
         }
-        ++count;
-    }
-    for (std::size_t i = 0; i < along.x.size(); ++i) {
-        along.depth[i] /= count;
-        along.speed[i] =
-            grains[i] > 0 ? along.speed[i] / grains[i] : std::numeric_limits<double>::quiet_NaN();
-        if (facts.level) along.level.push_back(facts.level(along.x[i], along.depth[i]));
+        along.x.push_back(snapshots.front().bins[place].position);
+        along.depth.push_back(depth / count);
+        along.speed.push_back(grains > 0 ? speed / grains : std::numeric_limits<double>::quiet_NaN());
+        if (facts.level) along.level.push_back(facts.level(along.x.back(), along.depth.back()));
     }
     return along;
 }
@@ -102,10 +116,13 @@ std::optional<double> fill_time(std::vector<double> const& held, double hold_up,
 
 }  // namespace
 
-std::vector<LeftGrain> parse_left(std::vector<core::TextFile> const& files, int steps_per_cycle) {
+std::vector<LeftGrain> parse_left(std::vector<core::TextFile> const& files, int steps_per_cycle,
+                                  bool is_mixture) {
     std::vector<LeftGrain> left;
-    for (DumpedGrain const& grain : parse_cycle_dumps(files, "left", "id x vx", steps_per_cycle))
-        left.push_back({grain.cycle, static_cast<long>(grain.values[0]), grain.values[1], grain.values[2]});
+    char const* const columns = is_mixture ? "id x vx type mass" : "id x vx";
+    for (DumpedGrain const& grain : parse_cycle_dumps(files, "left", columns, steps_per_cycle))
+        left.push_back({grain.cycle, static_cast<long>(grain.values[0]), grain.values[1], grain.values[2],
+                        static_cast<int>(grain.values[3]), grain.values[4]});
     return left;
 }
 
@@ -167,8 +184,14 @@ OpenFlow open_flow(CycleSeries const& series, std::vector<LeftGrain> const& left
     flow.window_depth =
         mean_of(open.window_mass, from + 1, to + 1) / (facts.bulk_density * facts.window * facts.width);
     flow.fill_time = fill_time(open.held_mass, *flow.hold_up, facts.period);
-    add_residence(flow, residence_times(series, left, facts));
-    flow.along = along_trough(parse_snapshots(files, folder, "along"), facts);
+    std::vector<LeftGrain> const gone = counted(left, facts);
+    std::vector<Stay> const stays = stays_of(series, gone, facts);
+    add_residence(flow, stays);
+    std::vector<Snapshot> const snapshots = on_trough(parse_snapshots(files, folder, "along"), facts);
+    flow.along = along_trough(snapshots, facts);
+    if (facts.mixture.types.empty()) return flow;
+    flow.materials_along = materials_along(snapshots, facts.mixture, flow.along.depth);
+    flow.materials = material_flows(flow.materials_along, flow.along.depth, gone, stays, time, facts.mixture);
     return flow;
 }
 

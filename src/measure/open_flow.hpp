@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "measure/cycle_series.hpp"
+#include "measure/material_flow.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -14,17 +15,11 @@
 
 namespace vibrotrough::measure {
 
-/// A grain that has left the trough.
-struct LeftGrain {
-    int cycle;  ///< at whose end it was found and taken out, from 1
-    long id;    ///< its number; grains are numbered in the order in which they are fed
-    double x;   ///< m, where it was then
-    double vx;  ///< m/s, its speed along the trough
-};
-
 /// Reads left.STEP.dump of a packing, as parse_cycle_dumps().
+/// @param is_mixture  the grains have types and masses
 /// @throws InputError naming the file when it is damaged
-std::vector<LeftGrain> parse_left(std::vector<core::TextFile> const& files, int steps_per_cycle);
+std::vector<LeftGrain> parse_left(std::vector<core::TextFile> const& files, int steps_per_cycle,
+                                  bool is_mixture);
 
 /// Why the grains of an open trough or of a screen do not add up: at the end of every cycle those that were
 /// there at the start and those that were fed are as many, and have the same mass, as those that are held and
@@ -44,6 +39,7 @@ struct OpenFacts {
     /// m, the surface of a layer at rest above the trough's lowest point, from the middle of a bin and the
     /// mean depth there (m). Only of a trough with a mesh.
     std::function<double(double x, double mean_depth)> level = {};
+    MixtureFacts mixture = {};  ///< of several materials
 };
 
 /// Values along the trough, bin by bin from the back wall to the edge: means over the cycles.
@@ -65,6 +61,8 @@ struct OpenFlow {
     std::optional<double> fill_time;         ///< s, until the trough first held 95 % of hold_up
     AlongTrough along;                       ///< the layer along the trough
     std::vector<double> residence;           ///< s, 0, 1 ... 100 % of the grains stayed no longer
+    MaterialsAlong materials_along = {};     ///< only of a mixture
+    MaterialFlows materials = {};            ///< only of a mixture
 };
 
 /// Measures a packing, of whose grains the balance is known to hold.

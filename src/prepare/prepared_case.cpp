@@ -41,7 +41,8 @@ std::vector<ClassCount> count_classes(std::vector<scenario::Material> const& mat
         std::vector<int> const of_size = count_parts(sizes, of_material[m]);
         for (std::size_t i = 0; i < sizes.size(); ++i)
             if (all || of_size[i] > 0)
-                classes.push_back({sizes[i].diameter, std::max(1, of_size[i]), static_cast<int>(m)});
+                classes.push_back({sizes[i].diameter, std::max(1, of_size[i]), static_cast<int>(m),
+                                   materials[m].number_fraction * sizes[i].number_fraction});
     }
     std::ranges::stable_sort(classes, std::greater(), &ClassCount::diameter);
     return classes;
@@ -111,7 +112,8 @@ double modulus_for(PreparedCase const& c, double error) {
 void prepare_grains(PreparedCase& c, ClumpMaker& clumps) {
     scenario::Scenario const& s = c.scenario;
     c.materials = materials(s);
-    c.classes = count_classes(c.materials, s.layer.grains, is_fed_screen(s));
+    bool const is_fed_mixture = is_open(s) && c.materials.size() > 1;
+    c.classes = count_classes(c.materials, s.layer.grains, is_fed_screen(s) || is_fed_mixture);
     if (s.layer.block == scenario::Block::plate) c.clump = clumps.plate(s.grains.diameter);
     if (is_clump(s.grains)) c.clump = clumps.clump(s.grains);
     c.spheres_per_grain = c.clump ? static_cast<int>(c.clump->spheres.size()) : 1;

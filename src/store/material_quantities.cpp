@@ -3,6 +3,7 @@
 #include "measure/mass_flow.hpp"
 #include "measure/segregation.hpp"
 #include "scenario/reader/keys.hpp"
+#include "store/material_flow_tables.hpp"
 
 #include <algorithm>
 #include <array>
@@ -37,16 +38,32 @@ std::vector<double> index_of(Case record, PackingRecord const& packing, std::siz
     return measure::segregation_index(all, masses, material, layer_height(record.scenario));
 }
 
-/// The mean over the last cycles.
+/// A number of the materials that was measured in an open trough.
+double of_flow(std::vector<double> const& values, std::size_t material) {
+    return material < values.size() ? values[material] : unknown();
+}
+
+/// The mean over the last cycles, or in the window of an open trough.
 double last_index(Case record, PackingRecord const& packing, std::size_t material) {
+    if (is_open(record.scenario)) return of_flow(packing.open.materials.segregation, material);
     std::vector<double> const index = index_of(record, packing, material);
     if (index.empty()) return unknown();
     int const count = measure::last_cycles(static_cast<int>(index.size()) - 1);
     return std::accumulate(index.end() - count, index.end(), 0.0) / count;
 }
 
+double material_outflow(Case, PackingRecord const& packing, std::size_t material) {
+    return of_flow(packing.open.materials.outflow, material);
+}
+
+double material_residence(Case, PackingRecord const& packing, std::size_t material) {
+    return of_flow(packing.open.materials.residence_time, material);
+}
+
 double efficiency_of(Case record, PackingRecord const& packing, std::size_t material) {
     scenario::Trough const& trough = record.scenario.trough;
+    if (is_open(record.scenario))
+        return of_flow(packing.open.materials.speed, material) / velocity_scale(trough);
     return measure::material_efficiency(packing.series.materials[material], packing.estimate.discarded,
                                         trough.amplitude * std::cos(trough.vibration_angle));
 }
@@ -55,7 +72,7 @@ double lead_of(Case record, PackingRecord const& packing, std::size_t material) 
     return efficiency_of(record, packing, material) - efficiency_of(record, packing, 0);
 }
 
-std::vector<double> over_packings(Case record, OfPacking of, std::size_t material) {
+std::vector<double> in_packings(Case record, OfPacking of, std::size_t material) {
     std::vector<double> values;
     for (PackingRecord const& packing : record.packings) values.push_back(of(record, packing, material));
     return values;
@@ -92,7 +109,7 @@ std::vector<double> numbers(std::vector<scenario::Material> const& all,
 void add_measured(std::vector<CaseValues>& columns, Case record, std::size_t materials, OfPacking of) {
     std::vector<double> means, widths;
     for (std::size_t material = 0; material < materials; ++material) {
-        std::vector<double> const values = over_packings(record, of, material);
+        std::vector<double> const values = in_packings(record, of, material);
         means.push_back(mean_of(values));
         widths.push_back(half_width_of(record, values));
     }
@@ -115,7 +132,7 @@ void add_series(std::vector<PackingTable>& tables) {
 
 }  // namespace
 
-std::span<PackingTable const> material_tables(std::size_t materials) {
+std::span<PackingTable const> material_tables(std::size_t materials, bool open) {
     static std::vector<PackingTable> const tables = [] {
         std::vector<PackingTable> all;
         add_series<0>(all);
@@ -124,7 +141,8 @@ std::span<PackingTable const> material_tables(std::size_t materials) {
         add_series<3>(all);
         return all;
     }();
-    return std::span(tables).first(materials < 2 ? 0 : 2 * materials);
+    if (materials < 2) return {};
+    return open ? material_flow_tables() : std::span(tables).first(2 * materials);
 }
 
 std::vector<Entry> const& materials_entries() {
@@ -141,8 +159,13 @@ std::vector<Entry> const& materials_entries() {
          "packing"},
         {"segregation", "1",
          "Segregation index S: height of its centre of mass above that of the other materials over half the "
-         "height of the layer, over the last tenth of the cycles; 1 on top, -1 at the floor, 0 mixed"},
+         "height of the layer, over the last tenth of the cycles, or in the window of an open trough; 1 on "
+         "top, -1 at the floor, 0 mixed"},
         {"segregation_half_width", "1", "Half-width of its interval, as for efficiency"},
+        {"outflow", "kg/s", "Its mass flow over the edge; only of open troughs"},
+        {"outflow_half_width", "kg/s", "Half-width of its interval, as for efficiency"},
+        {"residence_time", "s", "Its time from the feed to the edge; only of open troughs"},
+        {"residence_time_half_width", "s", "Half-width of its interval, as for efficiency"},
     };
     return entries;
 }
@@ -163,6 +186,9 @@ std::vector<CaseValues> materials_table(Case record) {
     };
     add_measured(columns, record, all.size(), efficiency_of);
     add_measured(columns, record, all.size(), last_index);
+    if (!is_open(record.scenario)) return columns;
+    add_measured(columns, record, all.size(), material_outflow);
+    add_measured(columns, record, all.size(), material_residence);
     return columns;
 }
 
@@ -189,7 +215,7 @@ std::vector<Entry> const& segregation_entries() {
 }
 
 std::vector<CaseValues> segregation_table(Case record) {
-    if (!is_mixture(record)) return {};
+    if (!is_mixture(record) || is_open(record.scenario)) return {};
     std::size_t cycle_ends = record.packings.front().series.x.size();
     for (PackingRecord const& packing : record.packings)
         cycle_ends = std::min(cycle_ends, packing.series.materials[0].z.size());
@@ -225,9 +251,10 @@ std::vector<Quantity> material_quantities() {
     std::vector<Quantity> rows{
         {"segregation",
          "1",
-         "Segregation index of the first of [[materials]], over the last tenth of the cycles: 1 when it lies "
-         "on "
-         "top of the others, -1 at the floor, 0 when the layer is mixed; NaN without materials",
+         "Segregation index of the first of [[materials]], over the last tenth of the cycles, or in the "
+         "window of an open trough: 1 when it lies on top of the others, -1 at the floor, 0 when the layer "
+         "is "
+         "mixed; NaN without materials",
          segregation(),
          OverPackings::mean,
          {{.place = 900,

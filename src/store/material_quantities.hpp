@@ -13,8 +13,9 @@
 
 namespace vibrotrough::store {
 
-/// The columns of the table `material_ends` of each packing, two for each of so many materials.
-std::span<PackingTable const> material_tables(std::size_t materials);
+/// The columns of the tables of each packing of so many materials: `material_ends`, two for each of them, or
+/// those of an open trough (material_flow_tables()). None for one material.
+std::span<PackingTable const> material_tables(std::size_t materials, bool open);
 
 /// The values of a column of a table of the case.
 using CaseValues = std::variant<std::vector<double>, std::vector<std::string>>;

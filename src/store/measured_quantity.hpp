@@ -4,6 +4,7 @@
 #include "store/material_quantities.hpp"
 #include "store/quantity.hpp"
 
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -62,6 +63,23 @@ class MeasuredColumn {
   private:
     double confidence_;
 };
+
+/// A column of a table of the packings.
+using PackingColumn = std::vector<double> const& (*)(PackingRecord const&);
+
+/// Mean and half-width of each row, over the packings that have a number there.
+inline MeasuredColumn over_packings(CaseRecord const& record, PackingColumn column, std::size_t rows) {
+    MeasuredColumn measured(record.scenario.measure.confidence);
+    for (std::size_t row = 0; row < rows; ++row) {
+        measure::EnsembleNumber number;
+        for (PackingRecord const& packing : record.packings) {
+            std::vector<double> const& values = column(packing);
+            if (row < values.size() && !std::isnan(values[row])) number.values.push_back(values[row]);
+        }
+        measured.add(number);
+    }
+    return measured;
+}
 
 /// A column of the terminal's table that is left out when no case has a value.
 constexpr TerminalView terminal_when_known(std::string_view heading, std::string_view unit) {

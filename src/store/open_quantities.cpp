@@ -3,8 +3,6 @@
 #include "measure/mass_flow.hpp"
 #include "store/measured_quantity.hpp"
 
-#include <cmath>
-
 namespace vibrotrough::store {
 namespace {
 
@@ -26,8 +24,6 @@ PackingTable flow_column(std::string_view name, std::string_view units, std::str
                 return p.series.open.*member;
             })};
 }
-
-using PackingColumn = std::vector<double> const& (*)(PackingRecord const&);
 
 std::vector<double> const& place_of(PackingRecord const& packing) {
     return packing.open.along.x;
@@ -51,20 +47,6 @@ std::vector<double> first_of(Case record, PackingColumn column) {
     for (PackingRecord const& packing : record.packings)
         if (!column(packing).empty()) return column(packing);
     return {};
-}
-
-/// Mean and half-width of each row, over the packings that have a number there.
-MeasuredColumn over_packings(Case record, PackingColumn column, std::size_t rows) {
-    MeasuredColumn measured(record.scenario.measure.confidence);
-    for (std::size_t row = 0; row < rows; ++row) {
-        measure::EnsembleNumber number;
-        for (PackingRecord const& packing : record.packings) {
-            std::vector<double> const& values = column(packing);
-            if (row < values.size() && !std::isnan(values[row])) number.values.push_back(values[row]);
-        }
-        measured.add(number);
-    }
-    return measured;
 }
 
 constexpr auto half_width_meaning =

@@ -1,7 +1,7 @@
 #include "store/reference.hpp"
 
 #include "store/impact_quantities.hpp"
-#include "store/material_quantities.hpp"
+#include "store/material_flow_tables.hpp"
 #include "store/observable.hpp"
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
@@ -77,8 +77,11 @@ void add_packings(std::vector<NameInFile>& names) {
             add(names, std::string(table.group) + "/<packing>/", real_type, shape_of(table.group),
                 table.entry);
     }
-    for (PackingTable const& table : material_tables(measure::most_materials))
+    for (PackingTable const& table : material_tables(measure::most_materials, false))
         add(names, std::string(table.group) + "/<packing>/", real_type, "cycles + 1", table.entry);
+    for (PackingTable const& table : material_tables(measure::most_materials, true))
+        add(names, std::string(table.group) + "/<packing>/", real_type,
+            table.group == "material_flow" ? "materials" : "materials * bins", table.entry);
     for (PackingTable const& table : open_tables(true)) {
         add(names, std::string(table.group) + "/<packing>/", real_type,
             table.group == "flow"    ? "cycles + 1"
@@ -97,6 +100,9 @@ void add_packings(std::vector<NameInFile>& names) {
     }
     for (Entry const& entry : materials_entries())
         add(names, "materials/", entry.name == "name" ? word_type : real_type, "materials", entry);
+    for (Entry const& entry : materials_along_entries())
+        add(names, "materials_along/", entry.name == "material" ? word_type : real_type, "materials * bins",
+            entry);
     for (Entry const& entry : segregation_entries())
         add(names, "segregation/", real_type, "cycles + 1", entry);
     for (Entry const& entry : stages_entries()) add(names, "stages/", real_type, "stages", entry);

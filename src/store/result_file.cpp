@@ -8,7 +8,7 @@
 #include "scenario/reader/campaign_file.hpp"
 #include "store/hdf5_memory_file.hpp"
 #include "store/impact_quantities.hpp"
-#include "store/material_quantities.hpp"
+#include "store/material_flow_tables.hpp"
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
 #include "store/screen_quantities.hpp"
@@ -89,6 +89,10 @@ void read_tables(Hdf5MemoryFileReader const& file, std::size_t number, PackingRe
             found = tables.emplace(group, file.table(packing_path(group, number), Rank::array)).first;
         entry.field(packing) = found->second.template values<double>(std::string(entry.entry.name));
     }
+}
+
+std::span<PackingTable const> tables_of_materials(scenario::Scenario const& scenario) {
+    return material_tables(scenario.materials.size() + 1, is_open(scenario));
 }
 
 /// The tables of the packings on a screen. A batch has a time.
@@ -220,7 +224,7 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
     for (std::size_t i = 0; record.scenario.measure.impacts && i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], impact_tables());
     for (std::size_t i = 0; i < record.packings.size(); ++i)
-        read_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
+        read_tables(file, i, record.packings[i], tables_of_materials(record.scenario));
     for (std::size_t i = 0; is_open(record.scenario) && i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], open_tables(record.scenario.trough.mesh != nullptr));
     for (auto const* const tables : tables_of_screen(record.scenario))
@@ -284,6 +288,7 @@ std::string result_bytes(CaseRecord const& record) {
         columns.push_back({entry.name, entry.units, entry.meaning, flow.*field});
     file.table("mass_flow", columns, Rank::array);
     add_case_table(file, "materials", materials_entries(), materials_table(record));
+    add_case_table(file, "materials_along", materials_along_entries(), materials_along_table(record));
     add_case_table(file, "segregation", segregation_entries(), segregation_table(record));
     add_case_table(file, "stages", stages_entries(), stages_table(record));
     add_case_table(file, "stage_cycles", stage_cycles_entries(), stage_cycles_table(record));
@@ -299,7 +304,7 @@ std::string result_bytes(CaseRecord const& record) {
         if (record.scenario.measure.rolling) add_tables(file, i, record.packings[i], rolling_tables());
         if (record.scenario.measure.wear) add_tables(file, i, record.packings[i], wear_tables());
         if (record.scenario.measure.impacts) add_tables(file, i, record.packings[i], impact_tables());
-        add_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
+        add_tables(file, i, record.packings[i], tables_of_materials(record.scenario));
         if (is_open(record.scenario))
             add_tables(file, i, record.packings[i], open_tables(record.scenario.trough.mesh != nullptr));
         for (auto const* const tables : tables_of_screen(record.scenario))

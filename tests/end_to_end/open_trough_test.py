@@ -8,6 +8,7 @@ import zipfile
 import h5py
 import numpy as np
 
+from mixture_test import read_dump
 from trough_program import EndToEndTest, at_night
 
 OPEN = {
@@ -49,6 +50,16 @@ def own_trough():
     ]
     return solid("floor", vee(0.0, STEP_AT, STEP) + step) + solid("liner", vee(STEP_AT, LENGTH, 0.0))
 
+
+MATERIALS = """
+[[materials]]
+name = "fines"
+mass_fraction = 0.4
+diameter = "2 mm"
+density = "2500 kg/m3"
+trough_friction = 0.2
+"""
+DENSITY = {1: 1400.0, 4: 2500.0}  # by atom type: trough and side walls are 2 and 3
 
 LOSING = """[before-first-cycle]
 region hole block 0.04 0.05 INF INF INF INF units box
@@ -162,6 +173,52 @@ class OpenTrough(EndToEndTest):
         self.assertTrue(list(self.output.glob("cases/*/frames/trough/*.vtp")))
         with zipfile.ZipFile(self.folder / "own.zip") as bundle:
             self.assertTrue([name for name in bundle.namelist() if name.endswith("own.stl")], bundle.namelist())
+
+    def test_a_mixture_is_killed_and_goes_on(self):
+        """Each material is fed with its share, and what the results say of its shares, speeds and heights along the trough is what
+        numpy makes of the engine's frames, which are of the same moments."""
+        changes = {**OPEN, "measure.packings": 1, "measure.min_cycles": 24, "measure.max_cycles": 24, "output.frames_per_cycle": 10}
+        campaign = self.write_campaign(changes)
+        with campaign.open("a") as file:
+            file.write(MATERIALS)
+        one, other = self.results_with_and_without_a_kill(campaign, 8, wanted=None)
+        with h5py.File(one) as file, h5py.File(other) as same:
+            for table in ("flow/1", "material_flow/1", "material_along/1", "materials", "materials_along"):
+                self.assertEqual(file[table][()].tobytes(), same[table][()].tobytes(), table)  # some numbers are NaN
+            flow, packings, flows = file["flow/1"][()], file["packings"][()], file["material_flow/1"][()]
+            along, whole, steps = file["material_along/1"][()], file["along/1"][()], int(file["packings"]["steps_per_cycle"][0])
+            self.assertNotIn("material_ends", file)
+        self.assert_balance(flow)
+        self.assertAlmostEqual(flows["outflow"].sum() / packings["outflow"][0], 1, delta=1e-5)  # a dump has six digits
+        shares = along["share"].reshape(2, -1)
+        np.testing.assert_allclose(shares.sum(axis=0), 1, rtol=1e-12)
+        self.assertAlmostEqual(np.average(shares[1], weights=whole["depth"]), 0.4, delta=0.05)  # about 200 grains of each
+        self.assert_last_cycle_is_that_of_the_frames(self.packing(), steps, 24)
+
+    def assert_last_cycle_is_that_of_the_frames(self, packing, steps, cycles):
+        latest = max(packing.glob("along.*.txt"), key=lambda path: int(path.name.split(".")[1]))
+        lines = latest.read_text().splitlines()
+        (start,) = [number for number, line in enumerate(lines) if line.split()[0] == str(cycles * steps)]
+        bins = np.array([[float(word) for word in line.split()] for line in lines[start + 1 :]])
+        edges = np.append(bins[:, 1], 2 * bins[-1, 1] - bins[-2, 1]) - (bins[1, 1] - bins[0, 1]) / 2
+        sums = np.zeros((len(bins), 7))  # number, and mass, momentum and moment of both materials
+        frames = [int(path.name.split(".")[1]) for path in packing.glob("dump/frames.*.dump")]
+        chosen = [step for step in frames if (cycles - 1) * steps < step <= cycles * steps]
+        self.assertEqual(len(chosen), 10)
+        for step in chosen:
+            frame = read_dump(packing / f"dump/frames.{step}.dump")
+            mass = np.array([DENSITY[int(kind)] for kind in frame["type"]]) * 4 / 3 * np.pi * frame["radius"] ** 3
+            columns = [np.ones_like(mass)]
+            for kind in DENSITY:
+                own = np.where(frame["type"] == kind, mass, 0)
+                columns += [own, own * frame["vx"], own * frame["z"]]
+            for number, values in enumerate(columns):
+                sums[:, number] += np.histogram(frame["x"], edges, weights=values)[0] / len(chosen)
+        found = bins[:, 2, None] * bins[:, 5:]
+        np.testing.assert_allclose(bins[:, 2], sums[:, 0], atol=0.11)  # a grain at the border of a bin
+        scale = np.abs(sums[:, 1:]).max(axis=0)
+        self.assertLess(np.median(np.abs(found - sums[:, 1:]) / scale), 1e-4)
+        np.testing.assert_allclose(found.sum(axis=0) / scale, sums[:, 1:].sum(axis=0) / scale, atol=1e-3)
 
     def test_lost_grains_are_noticed(self):
         """The negative control: a deck that takes grains out of the middle without telling."""

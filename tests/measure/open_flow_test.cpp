@@ -100,7 +100,7 @@ TEST(OpenFlow, WhatALaterRunRepeatedReplacesTheEarlier) {
         snapshot(0, {}) + snapshot(100, {"7 0.51 0.3"}) + snapshot(200, {"8 0.5 0.3", "9 0.5 0.3"});
     std::string const second =
         snapshot(100, {}) + snapshot(200, {"9 0.52 0.2"}) + snapshot(300, {"10 0.5 0.3"});
-    auto const left = parse_left({dump("left.100.dump", second), dump("left.0.dump", first)}, 100);
+    auto const left = parse_left({dump("left.100.dump", second), dump("left.0.dump", first)}, 100, false);
     ASSERT_EQ(left.size(), 3u);
     EXPECT_EQ(left[0].id, 7);
     EXPECT_EQ(left[1].id, 9);
@@ -113,10 +113,12 @@ TEST(OpenFlow, AnUnfinishedSnapshotIsLeftOutAndADamagedOneRefused) {
     std::string const whole = snapshot(0, {}) + snapshot(100, {"7 0.51 0.3"});
     std::string const next = snapshot(200, {"8 0.5 0.3"});
     for (std::size_t cut = 0; cut < next.size() - 1; cut += 5)
-        EXPECT_EQ(parse_left({dump("left.0.dump", whole + next.substr(0, cut))}, 100).size(), 1u) << cut;
-    EXPECT_THROW(parse_left({dump("left.0.dump", whole + "garbage\n")}, 100), core::InputError);
-    EXPECT_THROW(parse_left({dump("left.0.dump", snapshot(100, {"seven 0 0"}))}, 100), core::InputError);
-    EXPECT_THROW(parse_left({dump("left.0.dump", snapshot(150, {}))}, 100), core::InputError);
+        EXPECT_EQ(parse_left({dump("left.0.dump", whole + next.substr(0, cut))}, 100, false).size(), 1u)
+            << cut;
+    EXPECT_THROW(parse_left({dump("left.0.dump", whole + "garbage\n")}, 100, false), core::InputError);
+    EXPECT_THROW(parse_left({dump("left.0.dump", snapshot(100, {"seven 0 0"}))}, 100, false),
+                 core::InputError);
+    EXPECT_THROW(parse_left({dump("left.0.dump", snapshot(150, {}))}, 100, false), core::InputError);
 }
 
 // s = 2/Pe - 2/Pe^2 (1 - exp(-Pe)): 0.18 + 2e-2 exp(-10) at Pe = 10, 2 / e at Pe = 1, nearly 2/Pe for large

@@ -123,6 +123,16 @@ def check_segregation():
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["grains", "fines"]
 
 
+def check_materials_along():
+    """Two panels over the place in millimetres, with a band for each material where it was."""
+    result = {"materials_along/material": ["grains", "grains", "fines", "fines"], "materials_along/x": np.array([0.01, 0.03, 0.01, 0.03]),
+              "materials_along/share": np.array([0.6, 1, 0.4, 0]), "materials_along/share_half_width": np.full(4, 0.1),
+              "materials_along/segregation": np.array([0.5, np.nan, -0.5, np.nan]), "materials_along/segregation_half_width": np.full(4, 0.2)}  # fmt: skip
+    shares, indices = drawn(figure_tables.plot_segregation, result).get_figure().axes
+    assert [list(line.get_xdata()) for line in shares.lines] == [[10, 30], [10, 30]] and list(shares.lines[1].get_ydata()) == [0.4, 0]
+    assert indices.lines[1].get_ydata()[0] == -0.5 and [text.get_text() for text in shares.get_legend().get_texts()] == ["grains", "fines"]
+
+
 def band_of(axes, number=0):
     """The corners of a band: those of the upper and the lower line."""
     return {tuple(corner) for corner in np.round(axes.collections[number].get_paths()[0].vertices, 12)}
@@ -176,6 +186,7 @@ check_partition_through_the_opening()
 check_cycles_are_seen()
 check_stages()
 check_segregation()
+check_materials_along()
 check_along()
 check_residence()
 check_speed_over_stages()

@@ -67,6 +67,19 @@ TEST(Feed, MayCountGrains) {
     EXPECT_THAT(error(fed("mass_flow = \"500 m/s\"\n")), HasSubstr("cannot be converted to kg/s"));
 }
 
+// 500 grains per second of a mixture weigh 500 times the mean mass of its grains.
+TEST(Feed, OfAMixtureIsOfTheMeanGrain) {
+    std::string const fines =
+        "[[materials]]\nname = \"fines\"\nmass_fraction = 0.3\ndiameter = \"2 mm\"\ndensity = \"2500 "
+        "kg/m3\"\n";
+    Scenario const s = single_case(fed("mass_flow = \"500 1/s\"\n") + fines);
+    double mass = 0;
+    for (scenario::Material const& one : materials(s))
+        mass += one.number_fraction * one.grains.density * mean_grain_volume(one.grains);
+    EXPECT_NEAR(*s.feed.mass_flow / (500 * mass), 1, 1e-12);
+    EXPECT_EQ(single_case(to_toml(s)).feed.mass_flow, s.feed.mass_flow);
+}
+
 TEST(Feed, WrongInputIsToldInOneLine) {
     EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\n", "")), HasSubstr("needs side walls"));
     EXPECT_THAT(error(fed("length = \"25 mm\"\n")),
@@ -82,8 +95,8 @@ TEST(Feed, WrongInputIsToldInOneLine) {
                 HasSubstr("less than 3 of the largest diameters"));
     EXPECT_THAT(error(with("diameter_spread = 0.1", "shape = \"cube\"", fed())),
                 HasSubstr("fed with spheres"));
-    EXPECT_THAT(error(fed() + "[[materials]]\nname = \"b\"\nmass_fraction = 0.1\n"),
-                HasSubstr("one material"));
+    EXPECT_THAT(error(fed() + "[[materials]]\nname = \"b\"\nmass_fraction = 1e-4\n"),
+                HasSubstr("fewer than one grain of 'b'"));
     EXPECT_THAT(error(with("max_cycles = 200\n", "", fed()) + "[[stages]]\ntime = \"1 s\"\n"),
                 HasSubstr("stages.1.time: the drive of an open trough has no stages"));
 }

@@ -30,6 +30,14 @@ void open(vibrotrough::store::CaseRecord& record) {
                               {0.3, 0.3, 0.31, 0.32},
                               {0.017, 0.017, 0.014, 0.01}};
         packing.open.residence.assign(101, 1.5);
+        packing.open.materials = {
+            {0.3, 0.3, 0.3, 0.4}, {0.1, 0, 0, -0.1}, {0.02, 0.01, 0.01, 0.01}, {1, 1, 1, 2}};
+        for (int i = 0; i < 16; ++i) {
+            packing.open.materials_along.x.push_back(0.01 * (i % 4 + 1));
+            packing.open.materials_along.share.push_back(0.1 * (i / 4 + 1));
+            packing.open.materials_along.speed.push_back(0.3);
+            packing.open.materials_along.segregation.push_back(0.01 * i);
+        }
     }
     // The second packing has another depth and speed, no grains in the last bin, and longer stays.
     auto& second = record.packings.at(1).open;
@@ -37,6 +45,9 @@ void open(vibrotrough::store::CaseRecord& record) {
     second.along.speed.front() = 0.4;
     second.along.speed.back() = std::numeric_limits<double>::quiet_NaN();
     second.residence.back() = 2.5;
+    second.materials.outflow.back() = 0.02;
+    second.materials_along.share.back() = 0.6;
+    second.materials_along.speed.back() = std::numeric_limits<double>::quiet_NaN();
 }
 
 /// A floor that falls towards its edge, in mm.
@@ -64,14 +75,17 @@ void put_on_screen(vibrotrough::store::CaseRecord& record) {
     }
 }
 
-/// The sample with four materials and a stage in an open trough with holes, so that it has every table.
-vibrotrough::store::CaseRecord sample_mixture() {
+/// The sample with four materials and a stage in an open trough with holes, so that it has every table but
+/// those of a layer that keeps its grains; or with four materials that it keeps.
+vibrotrough::store::CaseRecord sample_mixture(bool is_open) {
     using namespace vibrotrough::store;
     CaseRecord record = sample_record();
     for (char const* const name : {"a", "b", "c"})
         record.scenario.materials.push_back({.name = name, .number_fraction = 0.1});
-    open(record);
-    put_on_screen(record);
+    if (is_open) {
+        open(record);
+        put_on_screen(record);
+    }
     record.scenario.stages = {{.cycles = 1}};  // as many cycles as the shorter packing has
     record.scenario_toml = to_toml(record.scenario);
     for (PackingRecord& packing : record.packings) {
@@ -113,7 +127,8 @@ int main(int argc, char** argv) {
     try {
         std::filesystem::path const folder = argv[1];
         std::filesystem::create_directories(folder);
-        write_result(folder / "result.h5", sample_mixture());
+        write_result(folder / "result.h5", sample_mixture(true));
+        write_result(folder / "kept.h5", sample_mixture(false));
         CaseRecord studied = sample_record();
         studied.studied = {0.034, "fedcba9876543210"};
         write_campaign(folder / "campaign.h5", "sample", {studied, sample_record("fedcba9876543210", 27.0)},

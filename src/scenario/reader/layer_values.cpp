@@ -171,7 +171,6 @@ void check_parts_of_open(Scenario const& s, GivenKeys const& given) {
         if (is_given) given.fail(key, wrong, "remove it, or the section [feed]");
     };
     refuse(is_clump(s.grains), "grains.shape", "an open trough is fed with spheres");
-    refuse(!s.materials.empty(), "materials.1.name", "an open trough is fed with one material");
     refuse(s.output.contacts, "output.contacts", "contacts are not written of an open trough");
     if (!s.stages.empty())
         given.fail(given.has("stages.1.time") ? "stages.1.time" : "stages.1.cycles",
