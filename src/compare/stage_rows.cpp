@@ -38,6 +38,7 @@ struct Shown {
     int priority;
     std::string_view format;
     std::string (*cell)(Row const&) = nullptr;
+    bool only_when_known = false;
 };
 
 constexpr std::array shown{
@@ -52,6 +53,12 @@ constexpr std::array shown{
     Shown{"distance", "distance", "m", 6, "{:.4f}", [](Row const& row) { return cell(row, "distance", 4); }},
     Shown{"time_to_speed", "to speed", "s", 6, "{:.3f}",
           [](Row const& row) { return cell(row, "time_to_speed", 3); }},
+    Shown{"fed_mass", "fed", "kg", 4, "{:.4f}", [](Row const& row) { return cell(row, "fed_mass", 4); },
+          true},
+    Shown{"left_mass", "out", "kg", 7, "{:.4f}", [](Row const& row) { return cell(row, "left_mass", 4); },
+          true},
+    Shown{"held_mass", "held", "kg", 5, "{:.4f}", [](Row const& row) { return cell(row, "held_mass", 4); },
+          true},
 };
 
 /// A column of Row::stage.
@@ -142,8 +149,10 @@ std::vector<Column> stage_columns(std::span<Column const> columns) {
     for (store::Entry const& entry : store::stages_entries()) {
         Column column = column_of(place++, entry.name, entry.units, entry.meaning);
         if (auto const view = std::ranges::find(shown, entry.name, &Shown::name); view != shown.end()) {
-            column.terminal = TerminalView{
-                .heading = view->heading, .subheading = view->subheading, .priority = view->priority};
+            column.terminal = TerminalView{.heading = view->heading,
+                                           .subheading = view->subheading,
+                                           .priority = view->priority,
+                                           .only_when_known = view->only_when_known};
             column.format = view->format;
             column.cell = view->cell;
         }

@@ -2,6 +2,7 @@
 
 #include "deck/estimates.hpp"
 #include "deck/findings.hpp"
+#include "deck/open_trough.hpp"
 #include "prepare/softness.hpp"
 #include "theory/unusual.hpp"
 
@@ -116,26 +117,6 @@ void check_contact_time(std::vector<Finding>& findings, prepare::PreparedCase co
     if (is_block(s)) return;
     findings.push_back(most("collision through the layer / flight time", key, layers * contact / flight, 0.3,
                             never, stiffen));
-}
-
-/// An open trough begins empty. What flows through it is measured when it is full, which the first packings
-/// should be for at least half of their cycles. The expected speed is rough, hence a quarter more time.
-void check_filling(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
-    scenario::Scenario const& s = c.scenario;
-    double const cycles = 1.25 * s.layer.length / expected_speed(s) * s.trough.frequency;
-    findings.push_back(
-        most("cycles until the open trough is full / cycles of a packing", "measure.min_cycles",
-             cycles / expected_cycles(s), 0.5, never,
-             fmt::format("raise it to {:.0f} or more, and max_cycles with it, so that the trough is full for "
-                         "half of the cycles",
-                         std::ceil(2 * cycles))));
-    double const needed = layer_under_feed(s) + 2 * largest_diameter(s);
-    findings.push_back(
-        most("expected layer and two grains / height of the feed", "feed.height", needed / feed_height(s), 1,
-             never,
-             fmt::format("the case may end as overfull: raise it to {:.3g} mm or more, or feed less; the "
-                         "expected layer is known within a factor of two",
-                         1e3 * needed)));
 }
 
 /// Measured at throw number 2: lengths of 8, 12 and 24 diameters give eta 0.822, 0.826 and 0.79 to 0.81.
@@ -360,6 +341,7 @@ std::vector<Finding> check_stages(prepare::PreparedCase const& prepared) {
     for (std::size_t i = 0; i < prepared.stages.size(); ++i) {
         if (prepared.stages[i].standstill) continue;
         for (Finding& finding : check_drive(of_stage(prepared, prepared.stages[i]))) {
+            if (finding.item == filling_item) continue;  // the stages say what is measured
             if (finding.severity != Severity::fine) finding.advice += fmt::format(" (stage {})", i + 1);
             auto const known = std::ranges::find(worst, finding.item, &Finding::item);
             if (known == worst.end()) {

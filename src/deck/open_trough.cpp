@@ -1,10 +1,16 @@
 #include "deck/open_trough.hpp"
 
 #include "deck/deck_data.hpp"
+#include "deck/estimates.hpp"
+#include "deck/findings.hpp"
+#include "scenario/model/stage_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,6 +26,73 @@ void describe_gate(core::TemplateData& data, prepare::PreparedCase const& n) {
     if (s.layer.length - n.domain.open->feed_end >= 2 * n.fill_top && !slopes) return;
     data.set("gate", fmt::format("{}", s.layer.length));
     if (slopes) data.set("gate_model", std::string(name_of(s.engine.contact)));
+}
+
+/// The feed of a part of a staged drive, or of several that are alike. The engine counts the grains that it
+/// feeds at each time with the time step with which the feed was made.
+struct StagedFeed {
+    double mass_flow;   ///< kg/s
+    double cycle_time;  ///< s
+    int first, last;    ///< number of cycles before it, and with it
+};
+
+std::vector<StagedFeed> staged_feeds(prepare::PreparedCase const& n) {
+    constexpr double rounding = 1e-9;
+    std::vector<StagedFeed> feeds;
+    for (scenario::DrivePart const& part : drive_parts(n.stages)) {
+        double const flow = n.stages[static_cast<std::size_t>(part.stage)].mass_flow;
+        int const last = part.first_cycle + part.cycles;
+        bool const goes_on = !feeds.empty() && feeds.back().mass_flow == flow &&
+                             std::abs(feeds.back().cycle_time / part.cycle_time() - 1) < rounding;
+        if (goes_on)
+            feeds.back().last = last;
+        else
+            feeds.push_back({flow, part.cycle_time(), part.first_cycle, last});
+    }
+    return feeds;
+}
+
+/// How many of the cycles of a part have ended, as a formula of the engine: v_ended are those of all.
+std::string ended_of(StagedFeed const& feed) {
+    return fmt::format("((v_ended>{0})*(v_ended-{0})-(v_ended>{1})*(v_ended-{1}))", feed.first, feed.last);
+}
+
+void describe_staged_feed(core::TemplateData& data, prepare::PreparedCase const& n, int packing) {
+    scenario::Scenario const& s = n.scenario;
+    double const mean_mass = mean_density(s) * mean_grain_volume(s);
+    std::vector<core::TemplateData> list;
+    std::string number = "0", mass = "0", time = "0", due = "0";
+    for (StagedFeed const& feed : staged_feeds(n)) {
+        int const index = static_cast<int>(list.size()) + 1;
+        double const in_cycle = feed.mass_flow * feed.cycle_time;
+        long const count = std::lround(in_cycle * (feed.last - feed.first) / mean_mass);
+        time += fmt::format("+{}*{}", feed.cycle_time, ended_of(feed));
+        if (count < 1) continue;
+        due += fmt::format("+{}*{}", in_cycle, ended_of(feed));
+        number += fmt::format("+f_feed_{}[1]", index);
+        mass += fmt::format("+f_feed_{}[2]", index);
+        core::TemplateData entry;
+        entry.set("number", std::to_string(index));
+        entry.set("time_step", fmt::format("{}", feed.cycle_time / n.time.steps_per_cycle));
+        entry.set("seed", std::to_string(seed_number(7000 + 100 * index + packing)));
+        entry.set("count", std::to_string(count));
+        entry.set("flow", fmt::format("{}", feed.mass_flow));
+        entry.set("first_step", std::to_string(static_cast<long>(feed.first) * n.time.steps_per_cycle + 1));
+        list.push_back(std::move(entry));
+    }
+    data.set("feeds", std::move(list));
+    data.set("fed_number", number);
+    data.set("fed_in_all", mass);
+    data.set("time_formula", time);
+    data.set("due_formula", due);
+}
+
+/// s, of all cycles.
+double longest_cycle(prepare::PreparedCase const& n) {
+    double longest = n.stages.empty() ? 1 / n.scenario.trough.frequency : 0;
+    for (scenario::DrivePart const& part : drive_parts(n.stages))
+        longest = std::max(longest, part.cycle_time());
+    return longest;
 }
 
 }  // namespace
@@ -61,7 +134,27 @@ void describe_open(core::TemplateData& data, prepare::PreparedCase const& n, int
     double const largest =
         n.mass / s.layer.grains * std::pow(n.classes.front().diameter / mean_diameter(s), 3);
     data.set("overfull_mass",
-             fmt::format("{:.6g}", late_cycles * flow / s.trough.frequency + late_grains * largest));
+             fmt::format("{:.6g}", late_cycles * flow * longest_cycle(n) + late_grains * largest));
+    data.set("fed_number", std::string("f_feed[1]"));
+    data.set("fed_in_all", std::string("f_feed[2]"));
+    if (!n.stages.empty()) describe_staged_feed(data, n, packing);
+}
+
+void check_filling(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
+    double const cycles = 1.25 * s.layer.length / expected_speed(s) * s.trough.frequency;
+    findings.push_back(
+        most(filling_item, "measure.min_cycles", cycles / expected_cycles(s), 0.5, never,
+             fmt::format("raise it to {:.0f} or more, and max_cycles with it, so that the trough is full for "
+                         "half of the cycles",
+                         std::ceil(2 * cycles))));
+    double const needed = layer_under_feed(s) + 2 * largest_diameter(s);
+    findings.push_back(
+        most("expected layer and two grains / height of the feed", "feed.height", needed / feed_height(s), 1,
+             never,
+             fmt::format("the case may end as overfull: raise it to {:.3g} mm or more, or feed less; the "
+                         "expected layer is known within a factor of two",
+                         1e3 * needed)));
 }
 
 }  // namespace vibrotrough::deck

@@ -24,6 +24,12 @@ void measure_open(store::PackingRecord& record, prepare::PreparedCase const& pre
                              s.layer.width,
                              open.window_end - open.window_start,
                              (s.layer.width + 2 * open.box_side) * (prepared.box_top - prepared.box_bottom)};
+    if (!prepared.stages.empty()) {  // all cycles count, as nothing is steady
+        facts.discarded = 0;
+        facts.ends = {0};
+        for (double const duration : cycle_durations(prepared.stages))
+            facts.ends.push_back(facts.ends.back() + duration);
+    }
     if (s.trough.mesh)
         facts.level = [mesh = s.trough.mesh, half = open.bin / 2, unit = metres_in(s.trough.mesh_unit)](
                           double x, double mean_depth) {
@@ -43,6 +49,7 @@ void measure_open(store::PackingRecord& record, prepare::PreparedCase const& pre
 
 std::string unsteady_flow(store::CaseRecord const& record) {
     constexpr double tolerance = 0.02;
+    if (!record.scenario.stages.empty()) return {};
     std::vector<double> differences;
     for (store::PackingRecord const& packing : record.packings) {
         if (packing.open.inflow && *packing.open.inflow > 0)

@@ -34,7 +34,8 @@ constexpr double largest_speed_ratio = 100;
 std::vector<double> efficiency_in_stages(prepare::PreparedCase const& prepared,
                                          measure::CycleSeries const& series) {
     std::vector<double> const durations = cycle_durations(prepared.stages);
-    if (prepared.clump) return measure::velocity_efficiency_by_mean(series, prepared.velocity_scale);
+    if (prepared.clump || prepared.domain.open)
+        return measure::velocity_efficiency_by_mean(series, prepared.velocity_scale);
     std::vector<double> efficiency;
     for (std::size_t i = 0; i + 1 < series.x.size() && i < durations.size(); ++i)
         efficiency.push_back((series.x[i + 1] - series.x[i]) / (durations[i] * prepared.velocity_scale));

@@ -30,6 +30,14 @@ std::vector<LeftGrain> counted(std::vector<LeftGrain> const& left, OpenFacts con
     return found;
 }
 
+/// s, from a part of a cycle until the end of a cycle.
+double elapsed(OpenFacts const& facts, double cycle, double share, int end) {
+    if (facts.ends.empty()) return (end - cycle + 1 - share) * facts.period;
+    auto const number = static_cast<std::size_t>(cycle);
+    double const start = facts.ends[number - 1], duration = facts.ends[number] - start;
+    return facts.ends[static_cast<std::size_t>(end)] - start - share * duration;
+}
+
 /// From when each grain was fed until it passed the edge. The numbers of the grains follow the order in
 /// which they were fed, evenly within a cycle; behind the edge they fly with a steady speed.
 std::vector<Stay> stays_of(CycleSeries const& series, std::vector<LeftGrain> const& left,
@@ -46,9 +54,10 @@ std::vector<Stay> stays_of(CycleSeries const& series, std::vector<LeftGrain> con
                 fmt::format("grain {} left in cycle {}, before it was fed", grain.id, grain.cycle));
         auto const cycle = static_cast<double>(after - fed.begin());
         double const before = *(after - 1), share = (number - 0.5 - before) / (*after - before);
-        double const flown =
-            grain.vx > 0 ? std::clamp((grain.x - facts.edge) / grain.vx, 0.0, facts.period) : 0;
-        stays.push_back({(grain.cycle - cycle + 1 - share) * facts.period - flown, grain.type});
+        auto const last = static_cast<std::size_t>(grain.cycle);
+        double const duration = facts.ends.empty() ? facts.period : facts.ends[last] - facts.ends[last - 1];
+        double const flown = grain.vx > 0 ? std::clamp((grain.x - facts.edge) / grain.vx, 0.0, duration) : 0;
+        stays.push_back({elapsed(facts, cycle, share, grain.cycle) - flown, grain.type});
     }
     return stays;
 }
@@ -174,16 +183,20 @@ OpenFlow open_flow(CycleSeries const& series, std::vector<LeftGrain> const& left
     int const from = facts.discarded, to = facts.used;
     if (to <= from) return flow;
     OpenSeries const& open = series.open;
-    double const time = (to - from) * facts.period;
+    bool const is_steady = facts.ends.empty();
+    double const time =
+        is_steady ? (to - from) * facts.period
+                  : facts.ends[static_cast<std::size_t>(to)] - facts.ends[static_cast<std::size_t>(from)];
     auto const at = [](std::vector<double> const& values, int k) {
         return values[static_cast<std::size_t>(k)];
     };
     flow.inflow = (at(open.fed_mass, to) - at(open.fed_mass, from)) / time;
-    flow.outflow = mean_of(open.left_mass, from + 1, to + 1) / facts.period;
+    double const left_per_cycle = mean_of(open.left_mass, from + 1, to + 1);
+    flow.outflow = is_steady ? left_per_cycle / facts.period : left_per_cycle * (to - from) / time;
     flow.hold_up = mean_of(open.held_mass, from + 1, to + 1);
     flow.window_depth =
         mean_of(open.window_mass, from + 1, to + 1) / (facts.bulk_density * facts.window * facts.width);
-    flow.fill_time = fill_time(open.held_mass, *flow.hold_up, facts.period);
+    if (is_steady) flow.fill_time = fill_time(open.held_mass, *flow.hold_up, facts.period);
     std::vector<LeftGrain> const gone = counted(left, facts);
     std::vector<Stay> const stays = stays_of(series, gone, facts);
     add_residence(flow, stays);

@@ -40,6 +40,8 @@ struct OpenFacts {
     /// mean depth there (m). Only of a trough with a mesh.
     std::function<double(double x, double mean_depth)> level = {};
     MixtureFacts mixture = {};  ///< of several materials
+    /// s, the ends of cycle 0 ... n, where the cycles differ. There is no time to fill then.
+    std::vector<double> ends = {};
 };
 
 /// Values along the trough, bin by bin from the back wall to the edge: means over the cycles.

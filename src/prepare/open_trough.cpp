@@ -6,6 +6,11 @@
 namespace vibrotrough::prepare {
 namespace {
 
+/// s, of all cycles of the drive.
+double longest_cycle(PreparedCase const& c) {
+    return c.stages.empty() ? 1 / c.scenario.trough.frequency : std::ranges::max(cycle_durations(c.stages));
+}
+
 /// m/s, of a grain of the feed that fell to the floor and downhill to the edge: a collision may turn it in
 /// any direction.
 double speed_of_feed(OpenTrough const& open, PreparedCase const& c) {
@@ -20,7 +25,7 @@ double speed_of_feed(OpenTrough const& open, PreparedCase const& c) {
 double longest_flight(PreparedCase const& c, double fed) {
     double const thrown =
         std::hypot(2 * c.largest_speed, std::sqrt(2 * scenario::gravity * c.domain.floor_top));
-    return std::max(thrown, fed) / c.scenario.trough.frequency + 2 * c.largest_extent;
+    return std::max(thrown, fed) * longest_cycle(c) + 2 * c.largest_extent;
 }
 
 /// m, the lowest and the highest point of the trough in its last part of this length.
@@ -50,8 +55,8 @@ void add_screen(OpenTrough& open, PreparedCase const& c, double fall) {
 
 OpenTrough open_trough(PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
-    double const grain = c.largest_extent, excursion = largest_excursion(c.motion);
-    double const period = 1 / s.trough.frequency, length = s.layer.length;
+    double const grain = c.largest_extent, excursion = c.largest_excursion;
+    double const period = longest_cycle(c), length = s.layer.length;
     OpenTrough open{};
     open.feed_start = excursion + 0.1 * grain;  // the back wall moves
     open.feed_end = open.feed_start + feed_length(s);

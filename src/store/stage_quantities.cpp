@@ -16,10 +16,11 @@ bool has_stages(Case record) {
     return !record.scenario.stages.empty() && !record.packings.empty();
 }
 
-/// The mean velocity along the trough in each cycle, m/s. The positions of rigid bodies are not unwrapped.
+/// The mean velocity along the trough in each cycle, m/s. The positions of rigid bodies are not unwrapped,
+/// and the grains of an open trough come and go.
 std::vector<double> velocity_of(Case record, PackingRecord const& packing,
                                 std::vector<double> const& durations) {
-    if (is_clump(record.scenario.grains)) return packing.series.mean_velocity;
+    if (is_clump(record.scenario.grains) || is_open(record.scenario)) return packing.series.mean_velocity;
     std::vector<double> velocity;
     for (std::size_t i = 0; i < durations.size(); ++i)
         velocity.push_back((packing.series.x[i + 1] - packing.series.x[i]) / durations[i]);
@@ -56,6 +57,26 @@ std::vector<double> numbers(std::vector<Stage> const& stages, Of const& of) {
     std::vector<double> values;
     for (Stage const& stage : stages) values.push_back(of(stage));
     return values;
+}
+
+std::size_t last_end(Stage const& stage) {
+    return static_cast<std::size_t>(stage.first_cycle + stage.cycles);
+}
+
+/// kg, of an open trough.
+double fed_in(measure::OpenSeries const& open, Stage const& stage) {
+    return open.fed_mass[last_end(stage)] - open.fed_mass[static_cast<std::size_t>(stage.first_cycle)];
+}
+
+double left_in(measure::OpenSeries const& open, Stage const& stage) {
+    double mass = 0;
+    for (auto i = static_cast<std::size_t>(stage.first_cycle) + 1; i <= last_end(stage); ++i)
+        mass += open.left_mass[i];
+    return mass;
+}
+
+double held_after(measure::OpenSeries const& open, Stage const& stage) {
+    return open.held_mass[last_end(stage)];
 }
 
 /// Mean and half-width of a number for each stage.
@@ -123,6 +144,12 @@ std::vector<Entry> const& stages_entries() {
          "Time from the start of the stage until the mean of the packings has gone 95 % of the way from the "
          "speed before to `conveying_speed`; NaN when the two do not differ"},
         {"time_to_speed_half_width", "s", "Half-width of its interval, by the jackknife over the packings"},
+        {"fed_mass", "kg", "What was fed in the stage; only of open troughs"},
+        {"fed_mass_half_width", "kg", width},
+        {"left_mass", "kg", "What left the trough in the stage; at a standstill what still runs out"},
+        {"left_mass_half_width", "kg", width},
+        {"held_mass", "kg", "What the trough holds at the end of the stage"},
+        {"held_mass_half_width", "kg", width},
     };
     return entries;
 }
@@ -148,6 +175,17 @@ std::vector<CaseValues> stages_table(Case record) {
     for (auto const number : {&measure::StageMeans::speed, &measure::StageMeans::change,
                               &measure::StageMeans::distance, &measure::StageMeans::time_to_speed})
         add_measured(columns, means, number, confidence);
+    if (!is_open(record.scenario)) return columns;
+    for (auto const of : {fed_in, left_in, held_after}) {
+        MeasuredColumn measured(confidence);
+        for (Stage const& stage : all) {
+            measure::EnsembleNumber number;
+            for (PackingRecord const& packing : record.packings)
+                number.values.push_back(of(packing.series.open, stage));
+            measured.add(number);
+        }
+        measured.put_into(columns);
+    }
     return columns;
 }
 

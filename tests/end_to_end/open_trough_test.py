@@ -61,6 +61,25 @@ trough_friction = 0.2
 """
 DENSITY = {1: 1400.0, 4: 2500.0}  # by atom type: trough and side walls are 2 and 3
 
+STAGES = """
+[[stages]]
+cycles = 10
+
+[[stages]]
+cycles = 6
+mass_flow = "0 t/h"
+throw_number = 1.6
+
+[[stages]]
+cycles = 2
+standstill = true
+
+[[stages]]
+cycles = 12
+throw_number = 2.2
+mass_flow = "0.025 t/h"
+"""
+
 LOSING = """[before-first-cycle]
 region hole block 0.04 0.05 INF INF INF INF units box
 [at-cycle-end]
@@ -194,6 +213,28 @@ class OpenTrough(EndToEndTest):
         np.testing.assert_allclose(shares.sum(axis=0), 1, rtol=1e-12)
         self.assertAlmostEqual(np.average(shares[1], weights=whole["depth"]), 0.4, delta=0.05)  # about 200 grains of each
         self.assert_last_cycle_is_that_of_the_frames(self.packing(), steps, 24)
+
+    def test_stages_feed_and_stop(self):
+        """What is fed and what leaves in each stage is that of the flows and times, and adds up; killed while the second feed is on."""
+        changes = {**OPEN, "measure.packings": 1, "measure.max_packings": None, "measure.min_cycles": None, "measure.max_cycles": None, "output.checkpoint_cycles": 5}
+        campaign = self.write_campaign(changes)
+        with campaign.open("a") as file:
+            file.write(STAGES)
+        one, other = self.results_with_and_without_a_kill(campaign, 20)
+        with h5py.File(one) as file, h5py.File(other) as same:
+            for table in ("flow/1", "stages"):
+                self.assertEqual(file[table][()].tobytes(), same[table][()].tobytes(), table)
+            flow, stages, whole = file["flow/1"][()], file["stages"][()], file["packings"][0]
+        self.assert_balance(flow)
+        grain = 0.05 / 3.6 * stages["time"][0] / flow["fed"][10]  # kg, mean mass
+        # A feed ends when it has fed its grains: by chance one cycle later at most.
+        wanted = 0.05 / 3.6 * stages["time"] * np.array([1, 0, 0, 0.5])
+        np.testing.assert_allclose(stages["fed_mass"], wanted, atol=6 * grain)
+        np.testing.assert_allclose(np.diff(stages["held_mass"]), (stages["fed_mass"] - stages["left_mass"])[1:], atol=1e-12)
+        self.assertAlmostEqual(stages["left_mass"].sum() / stages["time"].sum() / whole["outflow"], 1, delta=1e-12)
+        self.assertGreater(stages["left_mass"][1], stages["left_mass"][2])  # it runs empty, and at a standstill it stops
+        shown = self.call("compare", self.output, "--stages").stdout
+        self.assertIn("held", shown)
 
     def assert_last_cycle_is_that_of_the_frames(self, packing, steps, cycles):
         latest = max(packing.glob("along.*.txt"), key=lambda path: int(path.name.split(".")[1]))

@@ -93,6 +93,21 @@ TEST(OpenFlow, ResidenceIsFromTheFeedToTheEdge) {
     EXPECT_THROW(open_flow(steady_flow(), left, {}, "/packing", open_facts(0)), core::InputError);
 }
 
+// Cycles of 0.1, 0.1, 0.2 and 0.4 s: the grains that are found at the end of cycle 3, at 0.4 s, were fed from
+// 0.005 s on, and left 20 ms before; those of cycle 4, at 0.8 s, a cycle later.
+TEST(OpenFlow, CyclesOfStagesHaveTheirOwnTimes) {
+    std::vector<LeftGrain> left;
+    for (int i = 0; i < 20; ++i) left.push_back({3 + i / 10, 3 + i, 0.51, 0.5});
+    OpenFacts staged = open_facts(0);
+    staged.ends = {0, 0.1, 0.2, 0.4, 0.8};
+    OpenFlow const flow = open_flow(steady_flow(), left, {dump("along.0.txt", "")}, "/packing", staged);
+    EXPECT_NEAR(flow.residence.front(), 0.4 - 0.02 - 0.095, 1e-14);
+    EXPECT_NEAR(flow.residence.back(), 0.8 - 0.02 - 0.105, 1e-14);
+    EXPECT_NEAR(*flow.inflow, 0.04 / 0.8, 1e-15);
+    EXPECT_NEAR(*flow.outflow, 0.02 / 0.8, 1e-15);
+    EXPECT_FALSE(flow.fill_time);
+}
+
 // A run that was cut after step 200 and started again from step 100: the later file counts from there on, and
 // its first snapshot, which is empty because the run before took the grains out, does not.
 TEST(OpenFlow, WhatALaterRunRepeatedReplacesTheEarlier) {

@@ -80,6 +80,31 @@ TEST(Feed, OfAMixtureIsOfTheMeanGrain) {
     EXPECT_EQ(single_case(to_toml(s)).feed.mass_flow, s.feed.mass_flow);
 }
 
+std::string staged(std::string const& stages, std::string const& feed = fed("mass_flow = \"500 1/s\"\n")) {
+    return with("max_cycles = 200\n", "", feed) + stages;
+}
+
+// What a stage does not give is as in the stage before, and in the first as in [feed].
+TEST(Feed, StagesMayFeedLess) {
+    Scenario const s = single_case(
+        staged("[[stages]]\ncycles = 3\n[[stages]]\ncycles = 2\nstandstill = true\nmass_flow = \"0 t/h\"\n"
+               "[[stages]]\ncycles = 2\n[[stages]]\ncycles = 4\nmass_flow = \"1 g/s\"\n"));
+    std::vector<double> flows;
+    for (scenario::Stage const& stage : stages(s)) flows.push_back(stage.mass_flow);
+    EXPECT_EQ(flows, (std::vector<double>{*s.feed.mass_flow, 0, 0, 1e-3}));
+    EXPECT_EQ(stages(single_case(to_toml(s))).back().mass_flow, 1e-3);
+}
+
+TEST(Feed, WrongFeedsOfStagesAreNamed) {
+    EXPECT_THAT(error(staged("[[stages]]\ncycles = 3\nmass_flow = \"1 kg/s\"\n")),
+                HasSubstr("stages.1.mass_flow: is more than feed.mass_flow"));
+    EXPECT_THAT(error(staged("[[stages]]\ncycles = 3\nmass_flow = \"0 t/h\"\n")),
+                HasSubstr("nothing is fed in any stage"));
+    EXPECT_THAT(error(with("max_cycles = 200\n", "", example_campaign) +
+                      "[[stages]]\ncycles = 3\nmass_flow = \"1 g/s\"\n"),
+                HasSubstr("nothing is fed, because feed.mass_flow is not given"));
+}
+
 TEST(Feed, WrongInputIsToldInOneLine) {
     EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\n", "")), HasSubstr("needs side walls"));
     EXPECT_THAT(error(fed("length = \"25 mm\"\n")),
@@ -97,8 +122,6 @@ TEST(Feed, WrongInputIsToldInOneLine) {
                 HasSubstr("fed with spheres"));
     EXPECT_THAT(error(fed() + "[[materials]]\nname = \"b\"\nmass_fraction = 1e-4\n"),
                 HasSubstr("fewer than one grain of 'b'"));
-    EXPECT_THAT(error(with("max_cycles = 200\n", "", fed()) + "[[stages]]\ntime = \"1 s\"\n"),
-                HasSubstr("stages.1.time: the drive of an open trough has no stages"));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ def result_of(run: ValidationCase, name: str, answer: dict[str, str]) -> h5py.Fi
 def simulate(run: ValidationCase) -> None:
     (fed,) = run.campaign("open", {}, {})
     with result_of(run, "open", fed) as file:
-        along, materials, whole = file["materials_along"][()], file["materials"][()], file["along_trough"][()]
+        along, whole = file["materials_along"][()], file["along_trough"][()]
     fines = along[along["material"] == b"fines"]
     inside = (fines["x"] > BEHIND_FEED) & (fines["x"] < EDGE)
     depth = float(np.mean(whole["depth"][inside]))
@@ -53,7 +53,7 @@ def outflows(run: ValidationCase, fed: dict[str, str]) -> list[list[float]]:
         return [list(packing["outflow"]) for packing in file["material_flow"].values()]
 
 
-def columns(run: ValidationCase, table: str, names: list[str]) -> list[np.ndarray]:
+def columns(run: ValidationCase, table: str, names: list[str]) -> list[Any]:
     rows = run.table(table)
     return [np.array([float(row[name]) for row in rows]) for name in names]
 
@@ -67,7 +67,7 @@ def judge(run: ValidationCase) -> None:
     for place in PLACES:
         moment = np.interp(place, x, when)
         wanted, its_width = np.interp(moment, time, kept), np.interp(moment, time, kept_width)
-        run.check(f"segregation index {1e3 * place:.0f} mm from the back wall, after {moment:.2f} s", np.interp(place, x, index), sign * wanted, np.interp(place, x, width) + its_width, because="both intervals at 95 %")
+        run.check(f"segregation index {1e3 * place:.0f} mm from the back wall, after {moment:.2f} s", float(np.interp(place, x, index)), float(sign * wanted), float(np.interp(place, x, width) + its_width), because="both intervals at 95 %")
 
 
 def draw(run: ValidationCase) -> None:

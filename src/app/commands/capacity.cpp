@@ -55,6 +55,9 @@ void check_campaign(std::string const& file, scenario::CaseMaker const& maker) {
                 fmt::format("{}: only an open trough has a capacity; write a section [feed] ('vibrotrough "
                             "init open' has one)",
                             file));
+        if (!s.stages.empty())
+            throw core::InputError(fmt::format(
+                "{}: the capacity is that of a drive and a feed that never end; remove [[stages]]", file));
         if (!s.feed.height)
             throw core::InputError(
                 fmt::format("{}: feed.height is missing: the trough is full when the layer reaches the place "

@@ -69,6 +69,7 @@ struct Stage {
     int ramp_cycles;         ///< of the ramp at its beginning; 0 without a ramp
     double first_frequency;  ///< Hz, with which the ramp begins
     double start;            ///< s, when the stage begins
+    double mass_flow = 0;    ///< kg/s, fed into an open trough
 
     double ramp_time() const;  ///< s
     double time() const;       ///< s, with the ramp

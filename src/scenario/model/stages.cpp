@@ -60,12 +60,13 @@ std::vector<Stage> stages(Scenario const& scenario) {
     Trough trough = scenario.trough;
     bool stood = true;  // before the first stage
     int first_cycle = 0;
-    double start = 0;
+    double start = 0, mass_flow = scenario.feed.mass_flow.value_or(0);
     for (GivenStage const& given : scenario.stages) {
         double const before = trough.frequency;
         trough = with_drive(trough, given);
         double const first = stood ? trough.frequency : before;
-        Stage stage{trough, given.standstill, first_cycle, 0, 0, first, start};
+        mass_flow = given.mass_flow.value_or(mass_flow);
+        Stage stage{trough, given.standstill, first_cycle, 0, 0, first, start, mass_flow};
         stage.ramp_cycles = ramp_cycles_of(given, (first + trough.frequency) / 2);
         if (given.cycles) stage.cycles = *given.cycles;
         if (given.time)

@@ -31,6 +31,7 @@ struct GivenStage {
     std::optional<double> frequency = {};                ///< Hz
     std::optional<double> along_phase = {};              ///< rad
     std::shared_ptr<Waveform const> waveform = nullptr;  ///< a measured motion
+    std::optional<double> mass_flow = {};                ///< kg/s, fed into an open trough
 };
 
 /// The stages of a case in their order; none when its drive has no stages. A length that is given as a time

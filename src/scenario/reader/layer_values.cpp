@@ -172,9 +172,6 @@ void check_parts_of_open(Scenario const& s, GivenKeys const& given) {
     };
     refuse(is_clump(s.grains), "grains.shape", "an open trough is fed with spheres");
     refuse(s.output.contacts, "output.contacts", "contacts are not written of an open trough");
-    if (!s.stages.empty())
-        given.fail(given.has("stages.1.time") ? "stages.1.time" : "stages.1.cycles",
-                   "the drive of an open trough has no stages", "remove [[stages]], or the section [feed]");
     if (s.trough.side_wall_friction || (s.trough.mesh && s.trough.mesh->has_upright_sides)) return;
     given.fail("feed.mass_flow",
                "an open trough needs side walls, and there are none: it is not periodic across",
@@ -191,6 +188,27 @@ void weigh_feed(Scenario& s, GivenKeys const& given) {
                "write more than 0, and at most 100000 kg/s");
 }
 
+/// What the stages of a drive say of the feed.
+void check_feed_of_stages(Scenario const& s, GivenKeys const& given) {
+    bool is_fed = s.stages.empty();
+    for (Stage const& stage : stages(s)) is_fed = is_fed || stage.mass_flow > 0;
+    for (std::size_t i = 0; i < s.stages.size(); ++i) {
+        if (!s.stages[i].mass_flow) continue;
+        std::string const key = fmt::format("{}.{}.mass_flow", stages_section, i + 1);
+        if (!is_open(s))
+            given.fail(key, "nothing is fed, because feed.mass_flow is not given",
+                       "remove it, or write a section [feed]");
+        if (*s.stages[i].mass_flow > *s.feed.mass_flow * (1 + 1e-12))
+            given.fail(
+                key,
+                fmt::format(
+                    "is more than feed.mass_flow ({:.4g} kg/s), for which the place of the feed is made",
+                    *s.feed.mass_flow),
+                "raise feed.mass_flow, and give the other stages their own");
+        if (!is_fed) given.fail(key, "nothing is fed in any stage", "write a mass_flow above 0 in one");
+    }
+}
+
 /// A trough that is fed at one end and discharged at the other.
 void complete_feed(Scenario& s, GivenKeys const& given) {
     for (char const* key : {"feed.length", "feed.height"}) {
@@ -198,9 +216,10 @@ void complete_feed(Scenario& s, GivenKeys const& given) {
             given.fail(key, "nothing is fed, because feed.mass_flow is not given",
                        "write mass_flow, or remove it");
     }
-    if (!is_open(s)) return;
+    if (!is_open(s)) return check_feed_of_stages(s, given);
     check_parts_of_open(s, given);
     weigh_feed(s, given);
+    check_feed_of_stages(s, given);
     s.layer.grains = grains_of_feed(s, given);
     constexpr double fastest = 1.5;  // m/s
     double const largest = largest_diameter(s), length = feed_length(s);

@@ -109,6 +109,10 @@ void add_stage(std::vector<Key>& rows) {
         "the trough stands still, after the ramp if there is one; cycles are those of the stage before",
         KeyAccess{standstill_of<index>, entry_field<list, index, &GivenStage::standstill>.set});
     add_drive<index>(rows);
+    add("mass_flow", quantity, "kg/s", 0, 1e5, "0 to feed.mass_flow", "\"0 t/h\"",
+        "what is fed into an open trough in this stage; as in the stage before, and in the first as "
+        "feed.mass_flow",
+        entry_field<list, index, &GivenStage::mass_flow>);
 }
 
 }  // namespace

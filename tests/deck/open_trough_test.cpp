@@ -1,0 +1,64 @@
+#include "deck/deck.hpp"
+#include "scenario/example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vibrotrough::deck {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// The drive's deck of the example as an open trough of 200 mm that is fed with 36 g/s.
+std::string open_deck(std::string const& sections) {
+    std::string const trough = with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0",
+                                    with("height = \"12 mm\"", "", with("36 mm", "200 mm")));
+    std::string const base =
+        sections.find("[[stages]]") == 0 ? with("max_cycles = 200\n", "", trough) : trough;
+    std::string const text = base + "\n[feed]\nmass_flow = \"36 g/s\"\n" + sections;
+    auto const prepared = prepare::prepare_case(scenario::parse_campaign(text, "test.toml").cases.front());
+    return make_deck(prepared, {1}).files.at(drive_file);
+}
+
+TEST(OpenDeck, WithoutStagesHasOneFeed) {
+    std::string const deck = open_deck("");
+    EXPECT_THAT(deck, HasSubstr("fix             feed all insert/rate/region"));
+    EXPECT_THAT(deck, HasSubstr("variable        fed equal f_feed[1]\n"));
+    EXPECT_THAT(deck, HasSubstr("particles INF massrate 0.036"));
+    EXPECT_THAT(deck, Not(HasSubstr("ended")));
+}
+
+// Ramp and stage with one frequency are one feed, the stage without feed has none, and the last one begins
+// behind 6 + 3 cycles. A feed counts its grains with its own time step.
+TEST(OpenDeck, StagesOfOneFeedAreTogether) {
+    std::string const deck = open_deck(
+        "[[stages]]\ncycles = 6\nramp_cycles = 2\nfrequency = \"20 Hz\"\n"
+        "[[stages]]\ncycles = 3\nmass_flow = \"0 t/h\"\n"
+        "[[stages]]\ncycles = 4\nfrequency = \"10 Hz\"\nmass_flow = \"18 g/s\"\n");
+    EXPECT_THAT(deck, HasSubstr("fix             feed_1 all"));
+    EXPECT_THAT(deck, HasSubstr("fix             feed_2 all"));
+    EXPECT_THAT(deck, Not(HasSubstr("feed_3")));
+    EXPECT_THAT(deck, HasSubstr("variable        fed_mass equal 0+f_feed_1[2]+f_feed_2[2]\n"));
+    EXPECT_THAT(deck,
+                HasSubstr("*((v_ended>0)*(v_ended-0)-(v_ended>6)*(v_ended-6))+0.0018"));  // 18 g/s for 100 ms
+    EXPECT_THAT(deck, HasSubstr("*((v_ended>9)*(v_ended-9)-(v_ended>13)*(v_ended-13))-v_fed_mass\n"));
+    EXPECT_THAT(deck, HasSubstr("+0.1*((v_ended>9)*(v_ended-9)-(v_ended>13)*(v_ended-13))\n"));
+    EXPECT_THAT(deck, HasSubstr("equal (1>v_now)*1+(1<=v_now)*2000000000\n"));
+}
+
+// Grains that are fed are in no group: materials are told by their type.
+TEST(OpenDeck, MaterialsAreToldByTheirType) {
+    std::string const deck =
+        open_deck("[[materials]]\nname = \"fines\"\nmass_fraction = 0.25\ndiameter = \"2 mm\"\n");
+    EXPECT_THAT(deck, HasSubstr("variable        mass_1 atom mass*(type==4)\n"));
+    EXPECT_THAT(
+        deck,
+        HasSubstr(" density/mass vx v_mass_0 v_momentum_0 v_moment_0 v_mass_1 v_momentum_1 v_moment_1 "));
+    EXPECT_THAT(deck, HasSubstr(" id x vx type mass\n"));
+    EXPECT_THAT(deck, Not(HasSubstr("group           material")));
+}
+
+}  // namespace
+}  // namespace vibrotrough::deck
