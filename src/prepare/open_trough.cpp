@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vibrotrough::prepare {
 namespace {
@@ -20,11 +21,25 @@ double speed_of_feed(OpenTrough const& open, PreparedCase const& c) {
     return std::sqrt(open.feed_speed * open.feed_speed + 2 * scenario::gravity * drop);
 }
 
+/// How much faster a light grain of a mixture can be than a heavy one that hits it: 2 M / (M + m), of an
+/// elastic impact of the heaviest grain on the lightest one at rest.
+double speed_of_light_grains(PreparedCase const& c) {
+    if (c.materials.size() < 2) return 1;
+    double heaviest = 0, lightest = std::numeric_limits<double>::infinity();
+    for (ClassCount const& size : c.classes) {
+        double const density = c.materials[static_cast<std::size_t>(size.material)].grains.density;
+        double const mass = density * std::pow(size.diameter, 3);
+        heaviest = std::max(heaviest, mass);
+        lightest = std::min(lightest, mass);
+    }
+    return 2 * heaviest / (heaviest + lightest);
+}
+
 /// m, the way of a grain in a cycle, with the speed with which the trough throws it, from the highest point
 /// of its floor to the lowest one, or with this one.
 double longest_flight(PreparedCase const& c, double fed) {
-    double const thrown =
-        std::hypot(2 * c.largest_speed, std::sqrt(2 * scenario::gravity * c.domain.floor_top));
+    double const thrown = std::hypot(2 * speed_of_light_grains(c) * c.largest_speed,
+                                     std::sqrt(2 * scenario::gravity * c.domain.floor_top));
     return std::max(thrown, fed) * longest_cycle(c) + 2 * c.largest_extent;
 }
 
@@ -82,7 +97,8 @@ OpenTrough open_trough(PreparedCase const& c) {
     open.bin = length / std::round(length / (2 * mean_diameter(s)));
     open.box_start = -open.bin * std::ceil((excursion + 2 * grain) / open.bin);
     open.box_end = open.out_x + flight + fall * std::abs(std::sin(s.trough.inclination));
-    open.box_side = flight / 2;
+    // Light grains of a mixture were seen to leave sideways with more than half of this speed.
+    open.box_side = c.materials.size() > 1 ? flight : flight / 2;
     open.box_bottom = std::min(open.out_z, -near) - flight - fall;
     if (is_screen(s)) add_screen(open, c, fall);
     return open;

@@ -1,5 +1,5 @@
-"""Each kind of machine on a cluster: an own trough, an open one, a mixture, a drive in stages, screens with a batch and with a feed, and
-what has files of its own, wear and impacts. A Slurm is killed an engine and the driver under; the campaign comes out as it does on this
+"""Each kind of machine on a cluster: an own trough, an open one, which is fed with a mixture or in stages, a mixture, a drive in stages,
+screens with a batch and with a feed, and what has files of its own, wear and impacts. A Slurm is killed an engine and the driver under; the campaign comes out as it does on this
 machine, and its frames, its table and its archive are those of that kind.
 """
 
@@ -30,6 +30,8 @@ SHARED = {"measure.packings": 1, "measure.max_packings": 1, "output.frames_per_c
 KINDS = {
     "own trough": ({**own_trough_test.CHANGES, "trough.mesh": "own.stl"}, "", ["efficiency"]),
     "open": (open_trough_test.OPEN, "", ["outflow_t_per_h", "residence_time_s"]),
+    "fed mixture": (open_trough_test.OPEN, open_trough_test.MATERIALS, ["outflow_t_per_h", "segregation"]),
+    "fed stages": ({**open_trough_test.OPEN, "measure.min_cycles": None, "measure.max_cycles": None}, open_trough_test.STAGES, ["outflow_t_per_h", "stage_speed_m_per_s"]),
     "mixture": (mixture_test.LAYER, mixture_test.MATERIALS, ["segregation"]),
     "stages": ({**stages_test.DRIVE, **stages_test.PLAN}, stages_test.STAGES, ["stage_speed_m_per_s"]),
     "screen": (screen_test.SCREEN, "", ["screening_efficiency"]),
@@ -37,7 +39,7 @@ KINDS = {
     "wear": (wear_test.SHORT, "", ["specific_wear_j_per_t_m"]),
     "impacts": (impacts_test.SHORT, "", ["impact_power_w_per_kg", "trough_impact_power_w_per_kg"]),
 }
-WITHOUT_MOST = ("stages", "screen")  # these refuse measure.max_packings
+WITHOUT_MOST = ("stages", "screen", "fed stages")  # these refuse measure.max_packings
 
 
 class Kinds(EndToEndTest):

@@ -79,6 +79,23 @@ TEST(PreparedCase, AnOpenTroughKeepsTheGrainsThatAreStillOverIt) {
     EXPECT_LE(open.out_near_x + c.largest_extent / 2, edge - excursion);
 }
 
+// A light grain that a heavy one hits flies up to 2 M / (M + m) as fast, to any side: 16/9 for an eighth of
+// the mass and sizes that are alike.
+TEST(PreparedCase, LightGrainsOfAFedMixtureHaveRoom) {
+    std::string const text = with("diameter_spread = 0.1", "diameter_spread = 0",
+                                  with("height = \"12 mm\"\n", "", with("36 mm", "200 mm"))) +
+                             "[feed]\nmass_flow = \"0.1 t/h\"\n";
+    std::string const walls = with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text);
+    auto const flight = [](PreparedCase const& c, double factor) {
+        return factor * 2 * c.largest_speed / c.scenario.trough.frequency + 2 * c.largest_extent;
+    };
+    PreparedCase const alike = prepare_case(scenario_of(walls));
+    EXPECT_NEAR(alike.domain.open->box_side, flight(alike, 1) / 2, 1e-12);
+    PreparedCase const mixed = prepare_case(
+        scenario_of(walls + "[[materials]]\nname = \"fines\"\nmass_fraction = 0.1\ndiameter = \"1.5 mm\"\n"));
+    EXPECT_NEAR(mixed.domain.open->box_side, flight(mixed, 16.0 / 9), 1e-12);
+}
+
 // The same on a mesh, whose edge may be anywhere: what lies on it is above out_z behind out_near_x, and the
 // box reaches below its lowest point.
 TEST(PreparedCase, AnOpenTroughOfOnesOwnKeepsTheGrainsThatAreStillOverIt) {
