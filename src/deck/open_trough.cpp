@@ -114,6 +114,9 @@ void describe_open(core::TemplateData& data, prepare::PreparedCase const& n, int
     describe_gate(data, n);
     double const flow = *s.feed.mass_flow;
     data.set("mass_flow", fmt::format("{}", flow));
+    double const beside = (s.layer.width - feed_width(s)) / 2;
+    data.set("feed_left", fmt::format("{}", beside));
+    data.set("feed_right", fmt::format("{}", s.layer.width - beside));
     data.set("feeds_per_cycle", std::to_string(prepare::feeds_per_cycle));
     data.set("feed_steps", std::to_string(n.time.steps_per_cycle / prepare::feeds_per_cycle));
     data.set("feed_seed", std::to_string(seed_number(5000 + packing)));

@@ -12,12 +12,12 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// The drive's deck of the example as an open trough of 200 mm that is fed with 36 g/s.
-std::string open_deck(std::string const& sections) {
+std::string open_deck(std::string const& sections, std::string const& feed = "") {
     std::string const trough = with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0",
                                     with("height = \"12 mm\"", "", with("36 mm", "200 mm")));
     std::string const base =
         sections.find("[[stages]]") == 0 ? with("max_cycles = 200\n", "", trough) : trough;
-    std::string const text = base + "\n[feed]\nmass_flow = \"36 g/s\"\n" + sections;
+    std::string const text = base + "\n[feed]\nmass_flow = \"36 g/s\"\n" + feed + sections;
     auto const prepared = prepare::prepare_case(scenario::parse_campaign(text, "test.toml").cases.front());
     return make_deck(prepared, {1}).files.at(drive_file);
 }
@@ -28,6 +28,13 @@ TEST(OpenDeck, WithoutStagesHasOneFeed) {
     EXPECT_THAT(deck, HasSubstr("variable        fed equal f_feed[1]\n"));
     EXPECT_THAT(deck, HasSubstr("particles INF massrate 0.036"));
     EXPECT_THAT(deck, Not(HasSubstr("ended")));
+    EXPECT_THAT(deck, HasSubstr(" 0 0.018"));  // the stream is as wide as the trough
+}
+
+TEST(OpenDeck, ANarrowStreamIsInTheMiddle) {
+    std::string const deck = open_deck("", "width = \"14 mm\"\n");
+    EXPECT_THAT(deck, HasSubstr(" 0.002000000000000000"));
+    EXPECT_THAT(deck, HasSubstr(" 0.016 "));
 }
 
 // Ramp and stage with one frequency are one feed, the stage without feed has none, and the last one begins

@@ -105,6 +105,16 @@ TEST(Feed, WrongFeedsOfStagesAreNamed) {
                 HasSubstr("nothing is fed, because feed.mass_flow is not given"));
 }
 
+TEST(Feed, ANarrowStreamFallsFaster) {
+    Scenario const s = single_case(fed("mass_flow = \"0.05 t/h\"\nwidth = \"15 mm\"\n"));
+    EXPECT_NEAR(feed_speed(s) * 0.15 * 1400 * 0.02 * 0.015, *s.feed.mass_flow, 1e-15);
+    EXPECT_EQ(single_case(to_toml(s)).feed.width, 0.015);
+    for (char const* const width : {"13 mm", "19 mm"})
+        EXPECT_THAT(error(fed(std::string("mass_flow = \"0.05 t/h\"\nwidth = \"") + width + "\"\n")),
+                    HasSubstr("feed.width: "));
+    EXPECT_THAT(error(example_campaign + "[feed]\nwidth = \"15 mm\"\n"), HasSubstr("nothing is fed"));
+}
+
 TEST(Feed, WrongInputIsToldInOneLine) {
     EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\n", "")), HasSubstr("needs side walls"));
     EXPECT_THAT(error(fed("length = \"25 mm\"\n")),

@@ -26,6 +26,10 @@ double feed_length(Scenario const& s) {
     return s.feed.length.value_or(std::max(0.1 * s.layer.length, 4 * largest_diameter(s)));
 }
 
+double feed_width(Scenario const& s) {
+    return s.feed.width.value_or(s.layer.width);
+}
+
 double floor_under_feed(Scenario const& s) {
     if (!s.trough.mesh) return 0;
     double const unit = metres_in(s.trough.mesh_unit);
@@ -44,7 +48,7 @@ double feed_height(Scenario const& s) {
 
 double feed_speed(Scenario const& s) {
     constexpr double solid_fraction = 0.15;
-    double const area = feed_length(s) * s.layer.width;
+    double const area = feed_length(s) * feed_width(s);
     return *s.feed.mass_flow / (solid_fraction * mean_density(s) * area);
 }
 

@@ -13,6 +13,7 @@ struct Scenario;
 struct Feed {
     std::optional<double> mass_flow = {};  ///< kg/s
     std::optional<double> length = {};     ///< m, along the trough, of the zone that the stream falls into
+    std::optional<double> width = {};      ///< m, of the stream, in the middle of the trough
     /// m, from which the grains fall, above the lowest point of the trough.
     std::optional<double> height = {};
     /// 1/s, where the flow was given so; mass_flow follows from it.
@@ -30,6 +31,9 @@ double expected_speed(Scenario const& scenario);  ///< m/s
 /// Length of the zone that the stream falls into, m: as given, or a tenth of the trough and at least four of
 /// the largest diameters.
 double feed_length(Scenario const& scenario);
+
+/// Width of the stream, m: as given, or that of the trough.
+double feed_width(Scenario const& scenario);
 
 /// The highest point of the trough that the stream may fall on, m above its lowest point; 0 of a flat floor.
 double floor_under_feed(Scenario const& scenario);

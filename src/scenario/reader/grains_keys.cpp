@@ -134,6 +134,11 @@ constexpr std::array rows_of_grains{
         "length of the zone behind the back wall that the feed falls into; a tenth of the trough if it is "
         "not given",
         field<&Scenario::feed, &Feed::length>},
+    Key{"feed.width", quantity, "m", 1e-6, 10, "from 4 of the largest diameters to layer.width", "", optional,
+        "\"30 mm\"",
+        "width of the stream, which falls into the middle of the trough; as wide as the trough if it is not "
+        "given",
+        field<&Scenario::feed, &Feed::width>},
     Key{"feed.height", quantity, "m", 1e-6, 10, "above the layer", "", optional, "\"40 mm\"",
         "height above the floor, or above the lowest point of the mesh, from which the feed falls; when the "
         "layer reaches it, the case ends as overfull",

@@ -211,7 +211,7 @@ void check_feed_of_stages(Scenario const& s, GivenKeys const& given) {
 
 /// A trough that is fed at one end and discharged at the other.
 void complete_feed(Scenario& s, GivenKeys const& given) {
-    for (char const* key : {"feed.length", "feed.height"}) {
+    for (char const* key : {"feed.length", "feed.width", "feed.height"}) {
         if (!is_open(s) && given.has(key))
             given.fail(key, "nothing is fed, because feed.mass_flow is not given",
                        "write mass_flow, or remove it");
@@ -233,6 +233,13 @@ void complete_feed(Scenario& s, GivenKeys const& given) {
                 given.text("grains.diameter", largest)),
             fmt::format("write feed.length = \"{}\", or lengthen the trough",
                         given.text("feed.length", 4 * largest)));
+    if (s.feed.width && (*s.feed.width < 4 * largest || *s.feed.width > s.layer.width))
+        given.fail(
+            "feed.width",
+            fmt::format("{} is not from 4 of the largest diameters ({}) to the width of the trough, {}",
+                        given.text("feed.width", *s.feed.width), given.text("feed.width", 4 * largest),
+                        given.text("feed.width", s.layer.width)),
+            "change it, or leave it out for a stream as wide as the trough");
     double const floor = floor_under_feed(s), least_height = floor + 3 * largest;
     if (feed_height(s) < least_height)
         given.fail(
@@ -250,7 +257,7 @@ void complete_feed(Scenario& s, GivenKeys const& given) {
             "feed.mass_flow",
             fmt::format("it does not fit through a zone of {} by {}: the stream would have to fall into the "
                         "trough with {:.3g} m/s, faster than {} m/s",
-                        given.text("feed.length", length), given.text("layer.width", s.layer.width),
+                        given.text("feed.length", length), given.text("layer.width", feed_width(s)),
                         feed_speed(s), fastest),
             "lengthen feed.length, widen the trough, or feed less");
 }
