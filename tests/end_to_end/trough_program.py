@@ -159,8 +159,8 @@ class EndToEndTest(unittest.TestCase):
 
     def make_counting_engine(self):
         """The real engine behind a script that notes the folder of each simulation and of each settling it starts, and
-        runs the commands in VIBROTROUGH_TEST_BREAK before. It leaves probes alone, and is the same for all tests: they
-        share one certificate. What the engine says of itself, with exit code 1, is asked of it once."""
+        runs the commands in VIBROTROUGH_TEST_BREAK before. It leaves probes alone, and has the same bytes for all tests of
+        all processes: they share one certificate. What the engine says of itself, with exit code 1, is asked of it once."""
         real = shutil.which("liggghts")
         self.assertIsNotNone(real, "these tests need liggghts on the PATH")
         os.environ["VIBROTROUGH_TEST_STARTS"] = str(self.starts_file)
@@ -173,7 +173,7 @@ class EndToEndTest(unittest.TestCase):
             said.write_bytes(subprocess.run([real, "-log", "none", "-h"], stdout=subprocess.PIPE, check=False).stdout)
         script.write_text(
             "#!/bin/sh\n"
-            f'[ "$*" = "-log none -h" ] && cat "{said}" && exit 1\n'
+            f'if [ "$*" = "-log none -h" ]; then cat <<"SAID"; exit 1; fi\n{said.read_text()}\nSAID\n'
             'case "$1 $PWD" in -in*/vibrotrough-probe-*) ;;\n'
             '-in*) case "$2" in in.liggghts) pwd >> "$VIBROTROUGH_TEST_STARTS";;\n'
             'settle.liggghts) pwd >> "$VIBROTROUGH_TEST_SETTLES";; esac\n'
