@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from campaign_program import Row, campaign_text, run_campaign
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+USUAL_POINTS = 300
 HOLDS, FAILS = 0, 4  # exit codes; 1 is a crash of the script
 
 Floats = NDArray[np.float64]
@@ -58,7 +59,7 @@ def arguments(description: str) -> argparse.Namespace:
     parser.add_argument("--long", action="store_true", help="run the simulations of a long case instead of judging its stored tables")
     parser.add_argument("--quick", action="store_true", help="with --long: run only a few cases, to try the script; this proves nothing")
     parser.add_argument("--negative-control", action="store_true", help="make the case's deliberate mistake, which its criteria must detect")
-    parser.add_argument("--points", type=int, default=300, help="points per axis of a map of the theory")
+    parser.add_argument("--points", type=int, default=USUAL_POINTS, help="points per axis of a map of the theory")
     return parser.parse_args()
 
 
@@ -119,6 +120,10 @@ class ValidationCase:
     def efficiencies(self, columns: Sequence[str], points: Iterable[Sequence[float]], words: Sequence[str] = ()) -> Floats:
         """The theory's velocity efficiency at each of `points`, as for batch()."""
         return np.array([float(row["velocity_efficiency"]) for row in self.batch(columns, points, words)])
+
+    def drawn(self, numbers: Sequence[float]) -> Sequence[float]:
+        """Those of the numbers at which a curve is drawn: all of them with the usual --points, and fewer with fewer points."""
+        return numbers[:: max(1, USUAL_POINTS // self.points)]
 
     def probes(self) -> dict[str, dict[str, Any]]:
         """What `vibrotrough probe-engine` measured and expected, by the probes' names."""

@@ -151,13 +151,18 @@ class Engineer(EndToEndTest):
             self.assertIn(message, answer.stderr)
 
     def verify(self, *words, flow="6 t/h", wanted=0):
-        """`design --verify` where nothing is simulated; tutorial_test.py has a machine that is."""
+        """The answer of `design --verify`."""
         answer = self.call("design", "--mass-flow", flow, "--bulk-density", "600 kg/m3", "--width", "400 mm", "--friction", "0.3", "--rpm", "960",
                            "--machine-number", "4", "--layer-depth", "10 mm to 40 mm", "--grain-diameter", "12 mm", "--rolling-friction", "0.1",
                            "--model", "rolling-layer", "--objective", "least-machine-number", "--verify", "--quiet", "--json", *words,
                            cwd=self.folder)
         self.assertEqual(answer.returncode, wanted, answer.stderr)
         return json.loads(answer.stdout)
+
+    def test_a_machine_is_verified_by_its_own_simulation(self):
+        page = self.folder / "design.html"
+        self.assert_was_simulated(self.verify("--budget", "0.1 core-hours", "--jobs", "2", "--page", page), self.folder)
+        self.assert_is_a_page(page, "Verified: this machine was simulated at its own depth", "Signature")
 
     def test_a_verification_begins_no_machine_that_exceeds_its_budget(self):
         design = self.verify("--budget", "1 s", wanted=1)

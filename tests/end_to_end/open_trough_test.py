@@ -264,7 +264,7 @@ class OpenTrough(EndToEndTest):
     def test_lost_grains_are_noticed(self):
         """The negative control: a deck that takes grains out of the middle without telling."""
         (self.folder / "losing.liggghts").write_text(LOSING)
-        campaign = self.write_campaign({**OPEN, "measure.packings": 1, "engine.extra": "losing.liggghts"})
+        campaign = self.write_campaign({**OPEN, "measure.packings": 1, "measure.min_cycles": 20, "measure.max_cycles": 20, "engine.extra": "losing.liggghts"})
         done = self.call(*self.run_arguments(campaign), "--allow-extra")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(self.table()[0]["outcome"], "lost-grains")

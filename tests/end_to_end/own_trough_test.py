@@ -17,7 +17,7 @@ WALLS = [
     for y in (0, WIDTH)
     for triangle in (((0, y, 0), (LENGTH, y, 0), (LENGTH, y, 40)), ((0, y, 0), (LENGTH, y, 40), (0, y, 40)))
 ]
-CHANGES = {"measure.packings": 2, "measure.max_packings": 2, "measure.max_cycles": 20}
+CHANGES = {"measure.packings": 1, "measure.max_packings": 1, "measure.max_cycles": 20}
 
 
 def stl(triangles):
@@ -47,8 +47,9 @@ class OwnTrough(EndToEndTest):
 
     def test_a_flat_mesh_is_the_flat_floor(self):
         """The same box, grains and seeds: the same packings, but for the places where triangles meet."""
-        self.run_campaign(self.write(FLOOR), self.folder / "mesh")
-        self.run_campaign(self.write_campaign(CHANGES, name="flat.toml"), self.folder / "flat")
+        two = CHANGES | {"measure.packings": 2, "measure.max_packings": 2}
+        self.run_campaign(self.write(FLOOR, changes=two), self.folder / "mesh")
+        self.run_campaign(self.write_campaign(two, name="flat.toml"), self.folder / "flat")
         mesh, flat = self.efficiencies(self.folder / "mesh"), self.efficiencies(self.folder / "flat")
         for one, other in zip(mesh, flat):
             # A contact that moves over an edge may lose its history in another step; layers are chaotic after that.
@@ -64,8 +65,8 @@ class OwnTrough(EndToEndTest):
             campaign = self.folder / f"{name}.toml"
             changes = {**CHANGES, "trough.mesh": "own.stl", "trough.mesh_unit": "mm", "trough.friction": floor, "output.frames_per_cycle": 2 if name == "lined" else 0}
             campaign.write_text(campaign_text(changes) + pair)
-            self.run_campaign(campaign, self.folder / name)
-            mean[name] = sum(self.efficiencies(self.folder / name)) / 2
+            self.run_campaign(campaign, self.folder / name, wanted=None)  # one packing may not be precise
+            (mean[name],) = self.efficiencies(self.folder / name)
         self.assertAlmostEqual(mean["slippery"], 0, delta=0.06)  # grains that began at the trough's speed keep it, as nothing stops them
         self.assertGreater(mean["lined"], 0.4)
         self.assertAlmostEqual(mean["same"], mean["plain"], delta=0.05)
@@ -82,7 +83,7 @@ class OwnTrough(EndToEndTest):
 
     def test_a_channel_keeps_its_grains(self):
         """With upright walls the box is not periodic across, and no grain leaves it."""
-        self.run_campaign(self.write(FLOOR + WALLS, changes={"trough.friction": 0.5}))
+        self.run_campaign(self.write(FLOOR + WALLS, changes={"trough.friction": 0.5}), wanted=1)
         row = self.table()[0]
         self.assertIn(row["outcome"], ("finished", "not-precise"))
         (deck,) = self.output.glob("cases/*/packing-1/in.liggghts")
@@ -90,7 +91,7 @@ class OwnTrough(EndToEndTest):
 
     def test_the_file_is_a_part_of_the_case(self):
         campaign = self.write(FLOOR)
-        self.run_campaign(campaign)
+        self.run_campaign(campaign, wanted=1)
         case = self.table()[0]["case"]
         for copy in (self.output / "own.stl", self.output / "cases" / case / "own.stl"):
             self.assertTrue(copy.read_text().startswith("solid"), copy)
@@ -104,7 +105,7 @@ class OwnTrough(EndToEndTest):
             self.assertTrue([name for name in file.namelist() if name.endswith("own.stl")], file.namelist())
         # A changed file is another case, which does not take the results of the first.
         other = self.folder / "other"
-        self.run_campaign(self.write(FLOOR + WALLS), other)
+        self.run_campaign(self.write(FLOOR + WALLS), other, wanted=1)
         self.assertNotEqual(self.table(other)[0]["case"], case)
 
 

@@ -252,8 +252,12 @@ class PersonsFiles(EndToEndTest):
         whole = certificate.read_bytes()
         for damaged in sample((b"[]", b'{"probes": [{"a": 1}, 2, [3]]}', b"[" * 100_000, b'{"a": ' * 5000, b"", b"{", b"\xff\xfe", whole[: len(whole) // 2]), 5):
             certificate.write_bytes(damaged)
-            page.unlink(missing_ok=True)
-            done = self.call("report", self.output)
+            # The figures do not show it: they are drawn once, and the page is made again as the program makes it.
+            if WHOLE or not page.exists():
+                done = self.call("report", self.output)
+            else:
+                page.unlink()
+                done = subprocess.run([sys.executable, "-B", SOURCES / "postprocess" / "report.py", self.output], capture_output=True, text=True)
             with self.subTest(damaged=damaged[:20]):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertNotIn("Traceback", done.stderr)
@@ -277,7 +281,7 @@ class PersonsFiles(EndToEndTest):
                         ("init", "pellets", "--output", place / f"{name}.toml"), ("status", place / "none" / name)]  # fmt: skip
             copied = []
             for command in commands:
-                if number > 0 and command[0] in ("plot", "report") and not WHOLE:
+                if command[0] in (("plot", "report") if number > 0 else ("plot",)) and not WHOLE:
                     continue
                 done = subprocess.run([PROGRAM, *map(os.fsencode, map(str, command))], capture_output=True, timeout=SOON)
                 said = (done.stdout + done.stderr).decode()  # UTF-8

@@ -3,6 +3,7 @@
 import ast
 import os
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -45,11 +46,15 @@ def sections(page):
 
 class PythonExamples(EndToEndTest):
     def simulate(self):
+        """A campaign as two folders, simulated once for all tests."""
+        simulated = Path(self.common.name) / "runs"
         campaign = self.folder / "pellets.toml"
         campaign.write_text(campaign_text(CAMPAIGN, {"trough.throw_number": [1.5, 2.0]}))
-        for name in ("pellets", "demo"):
-            done = self.call("run", campaign, "--output", self.folder / "runs" / name, "--accept-findings", "--jobs", 2)
+        if not simulated.exists():
+            done = self.call("run", campaign, "--output", simulated, "--accept-findings", "--jobs", 2)
             self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("pellets", "demo"):
+            shutil.copytree(simulated, self.folder / "runs" / name)
         done = self.call("theory", "map", "--x", "throw_number=1:3:5", "--y", "friction=0.2:0.4:3", "--tan-vibration-angle", 0.5, "--output",
                          self.folder / "map.h5")  # fmt: skip
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -117,7 +117,7 @@ class Surroundings(EndToEndTest):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn('LC_NUMERIC="C"', noted.read_text())
             tables.append([path.read_bytes() for path in sorted(folder.glob("cases/*/packing-*/cycles.csv"))])
-        drawn = self.start("report", folder, env=environment)
+        drawn = self.start("plot", folder, "--only", "cycles", env=environment)
         self.assertEqual(drawn.returncode, 0, drawn.stderr)
         self.assertEqual(tables[0], tables[1])
         self.assertEqual(len(tables[0]), 2)
@@ -132,7 +132,7 @@ class Surroundings(EndToEndTest):
 
     def test_closed_streams(self):
         self.finished_campaign(ONE, wanted=0)
-        drawing, quick = (["report", self.output], ["plot", self.output]), (["status", self.output], ["validate", "--list"])
+        drawing, quick = (["report", self.output], ["plot", self.output, "--only", "cycles", "--only", "profiles"]), (["status", self.output], ["validate", "--list"])
         streams = (([1], 3), ([0], 0), ([0, 1], 3))
         for (closed, wanted), command in sample(itertools.product(streams, drawing), 5) + list(itertools.product(streams, quick)):
             with self.subTest(closed=closed, command=command[0]):

@@ -11,6 +11,7 @@ import stat
 import subprocess
 import tempfile
 import time
+import tomllib
 import unittest
 from pathlib import Path
 from typing import ClassVar
@@ -159,8 +160,8 @@ class EndToEndTest(unittest.TestCase):
 
     def make_counting_engine(self):
         """The real engine behind a script that notes the folder of each simulation and of each settling it starts, and
-        runs the commands in VIBROTROUGH_TEST_BREAK before. It leaves probes alone, and is the same for all tests: they
-        share one certificate. What the engine says of itself, with exit code 1, is asked of it once."""
+        runs the commands in VIBROTROUGH_TEST_BREAK before. It leaves probes alone, and has the same bytes for all tests of
+        all processes: they share one certificate. What the engine says of itself, with exit code 1, is asked of it once."""
         real = shutil.which("liggghts")
         self.assertIsNotNone(real, "these tests need liggghts on the PATH")
         os.environ["VIBROTROUGH_TEST_STARTS"] = str(self.starts_file)
@@ -173,7 +174,7 @@ class EndToEndTest(unittest.TestCase):
             said.write_bytes(subprocess.run([real, "-log", "none", "-h"], stdout=subprocess.PIPE, check=False).stdout)
         script.write_text(
             "#!/bin/sh\n"
-            f'[ "$*" = "-log none -h" ] && cat "{said}" && exit 1\n'
+            f'if [ "$*" = "-log none -h" ]; then cat <<"SAID"; exit 1; fi\n{said.read_text()}\nSAID\n'
             'case "$1 $PWD" in -in*/vibrotrough-probe-*) ;;\n'
             '-in*) case "$2" in in.liggghts) pwd >> "$VIBROTROUGH_TEST_STARTS";;\n'
             'settle.liggghts) pwd >> "$VIBROTROUGH_TEST_SETTLES";; esac\n'
@@ -289,6 +290,22 @@ class EndToEndTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         again = json.loads(done.stdout)
         return (again["cases"] if isinstance(again, dict) else again)[0]
+
+    def assert_was_simulated(self, design, folder):
+        """The answer of `design --verify` in the folder is the machine that was simulated, and its model is what the layers were."""
+        self.assertEqual(design["verification"]["verdict"], "verified", design)
+        machine = design["verification"]["machines"][-1]
+        self.assertTrue(all(layer["agrees"] for layer in machine["layers"]))
+        self.assertGreaterEqual(machine["probability"], 0.95)
+        for key in ("stroke_mm", "rpm", "vibration_angle_deg", "layer_depth_mm"):
+            self.assertAlmostEqual(design[key], machine[key], 9)
+        campaign = folder / machine["campaign"]
+        layer = tomllib.loads(campaign.read_text(encoding="utf-8"))["layer"]
+        self.assertAlmostEqual(float(layer["height"].split()[0]), machine["layer_depth_mm"], 6)
+        simulated = sorted(row["efficiency"] for row in self.table(campaign.with_suffix("")))
+        self.assertEqual(len(simulated), len(machine["layers"]))
+        for one, other in zip(simulated, sorted(layer["simulated"] for layer in machine["layers"])):
+            self.assertAlmostEqual(one, other, 9)
 
     def results(self):
         return sorted(self.output.glob("cases/*/result.h5"))

@@ -9,7 +9,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tomllib
 import unittest
 from pathlib import Path
 
@@ -78,7 +77,7 @@ class Tutorial(EndToEndTest):
         """Runs every block of the page, or those before its first simulation, and compares what it shows with what comes back."""
         said = ""
         for language, code, content in blocks(self.page(walk)):
-            if not to_its_end and "vibrotrough run " in content:
+            if not to_its_end and ("vibrotrough run " in content or "--verify" in content):
                 return
             if language == "text":
                 self.assertEqual(missing_lines(content, said), [], said)
@@ -117,10 +116,10 @@ class Tutorial(EndToEndTest):
 
     def test_from_a_mass_flow_to_a_sheet(self):
         page, notebook = self.new_folder("page"), self.new_folder("notebook")
-        self.follow_page("design", page)
+        self.follow_page("design", page, to_its_end=WHOLE)
         if WHOLE:
             self.follow_notebook("design", notebook, page / "runs")
-        for folder in (page, notebook) if WHOLE else (page,):
+        for folder in (page, notebook) if WHOLE else ():
             sheet = (folder / "design.html").read_text()
             self.assertIn("Verified: this machine was simulated at its own depth", sheet)
             self.assertIn("Signature", sheet)
@@ -128,27 +127,13 @@ class Tutorial(EndToEndTest):
             self.assert_is_the_machine_that_was_simulated(page)
 
     def assert_is_the_machine_that_was_simulated(self, folder):
-        """The page's command again, which simulates nothing then: its answer is the machine that was simulated, and its model is what the layers
-        were."""
+        """The page's command again, which simulates nothing then."""
         (command,) = (content.rstrip("\n") for _, _, content in blocks(self.page("design")) if "--verify" in content)
         results = {path: path.stat().st_mtime_ns for path in folder.rglob("result.h5")}
         code, said = self.command(["sh", "-ec", command + " --quiet --json"], folder)
         self.assertEqual(code, 0, said)
-        design = json.loads(said)
         self.assertEqual({path: path.stat().st_mtime_ns for path in folder.rglob("result.h5")}, results)
-        self.assertEqual(design["verification"]["verdict"], "verified", said)
-        machine = design["verification"]["machines"][-1]
-        self.assertTrue(all(layer["agrees"] for layer in machine["layers"]))
-        self.assertGreaterEqual(machine["probability"], 0.95)
-        for key in ("stroke_mm", "rpm", "vibration_angle_deg", "layer_depth_mm"):
-            self.assertAlmostEqual(design[key], machine[key], 9)
-        campaign = folder / machine["campaign"]
-        layer = tomllib.loads(campaign.read_text(encoding="utf-8"))["layer"]
-        self.assertAlmostEqual(float(layer["height"].split()[0]), machine["layer_depth_mm"], 6)
-        simulated = sorted(row["efficiency"] for row in self.table(campaign.with_suffix("")))
-        self.assertEqual(len(simulated), len(machine["layers"]))
-        for one, other in zip(simulated, sorted(layer["simulated"] for layer in machine["layers"])):
-            self.assertAlmostEqual(one, other, 9)
+        self.assert_was_simulated(json.loads(said), folder)
 
     def test_the_notebook_is_the_page(self):
         """Fields as https://nbformat.readthedocs.io/en/latest/format_description.html has them for 4.5."""

@@ -185,7 +185,7 @@ class Campaign(Unpacked):
         self.assertTrue(list((self.home / "runs").rglob("*.pvd")))
 
     def test_the_theory_is_validated(self):
-        self.assert_done(self.run_as_user("validate", "theory_exact", "--points", 20))
+        self.assert_done(self.run_as_user("validate", "theory_shake_test"))
 
 
 class Sources(unittest.TestCase):

@@ -82,7 +82,8 @@ def check_lint(root: pathlib.Path) -> list[str]:
 
 def check_types(root: pathlib.Path, cache: str) -> list[str]:
     """Of the tests only those of sources have types. mypy takes longer to start than to check a script: folders are checked together
-    where their modules have different names, through links under one folder. Nobody imports the many that are named run.py."""
+    where their modules have different names, through links under one folder. Nobody imports the many that are named run.py.
+    What one group has found out of NumPy the next one need not: they share the cache."""
     program = tool("mypy", version=MYPY_VERSION)
     folders: dict[pathlib.Path, dict[str, pathlib.Path]] = {}
     for path in files(root, ("postprocess", "validation", "tests/style", "tests/architecture"), (".py",)):
@@ -103,7 +104,7 @@ def check_types(root: pathlib.Path, cache: str) -> list[str]:
         for name, path in group.items():
             (links / name).symlink_to((root / path).resolve())
         search = {"MYPYPATH": f"{links}:{root / 'postprocess'}", "PATH": "/usr/bin:/bin"}
-        command = [program, "--config-file", str(root / ".mypy.ini"), "--cache-dir", str(pathlib.Path(cache, f"cache_{number}")), "--no-error-summary"]
+        command = [program, "--config-file", str(root / ".mypy.ini"), "--cache-dir", str(pathlib.Path(cache, "cache")), "--no-error-summary"]
         for line in run([*command, *sorted(group)], links, search):
             name, colon, rest = line.partition(":")
             answer.append(f"{group.get(name, name)}{colon}{rest}")

@@ -122,7 +122,7 @@ def judge_findings(run: ValidationCase, rows: list[Row], bands: Bands, amplitude
 def draw(run: ValidationCase, rows: list[Row], layers: list[Row]) -> None:
     figure, panels = figure_style.new_figure(1, 3, size=(12, 4.2), layout="constrained", sharey=True)
     rpm = [float(row["revolutions"]) for row in rows]
-    fine = np.linspace(1230, 1600, 20)
+    fine = run.drawn(np.linspace(1230, 1600, 20).tolist())
     for axes, (name, slope) in zip(panels, SLOPES.items()):
         table = np.array([speeds(run, n, slope, AMPLITUDE) for n in fine])
         band = np.array([in_band(values) for values in table])

@@ -96,6 +96,7 @@ def judge_no_slip(run: ValidationCase, solver: Solver) -> None:
 
 def draw(run: ValidationCase, solver: Solver) -> None:
     gammas = sorted([1.001, 1.02] + [1.05 + 0.05 * i for i in range(119)] + [*exact.plateau(1), *exact.plateau(2)])
+    gammas = list(run.drawn(gammas))
     points = [solver.point(gamma) for gamma in gammas]
     figure, (left, right) = figure_style.new_figure(1, 2, size=(11, 4.4), layout="constrained")
     left.plot(gammas, [point["flight_number"] if point["converged"] else math.nan for point in points], color=figure_style.COLOURS[0], label="solver, longest flight")

@@ -107,9 +107,9 @@ def findings(run: ValidationCase, numbers: NDArray[np.float64], level: NDArray[n
 
 def draw(run: ValidationCase, numbers: NDArray[np.float64], level: NDArray[np.float64], inclined: NDArray[np.float64]) -> None:
     figure, panels = figure_style.new_figure(1, 2, size=(11, 4.2), layout="constrained")
-    strengths = np.geomspace(0.2, 300, 40)
+    strengths = run.drawn(np.geomspace(0.2, 300, 40).tolist())
     for i, phase in enumerate((0.0, 45.0, 90.0)):
-        panels[0].semilogx(strengths, [horizontal(run, float(k), 2, phase) for k in strengths], figure_style.DASHES[i], color=figure_style.COLOURS[i],
+        panels[0].semilogx(strengths, [horizontal(run, k, 2, phase) for k in strengths], figure_style.DASHES[i], color=figure_style.COLOURS[i],
                            label=f"phase {phase:g}\u00b0")
         panels[0].axhline(median_velocity(2, phase), color=figure_style.COLOURS[i], lw=0.6)
     panels[0].set(title=f"shaken horizontally, frequencies 1 : 2, \u03bc = {FRICTION}", xlabel="machine number K = \u03c9\u00b2 r / g  [-]",

@@ -70,7 +70,8 @@ def main() -> None:
     limits = run.json("limits", "--friction", 0.35, "--tan-vibration-angle", tangent)
     judge_limits(run, limits)
     draw_traces(run, tangent, (limits["throw_number_of_whole_cycle_flight"], limits["best_throw_number_small_angle"]))
-    draw_optimum(run)
+    if not run.control:
+        draw_optimum(run)
     run.finish()
 
 

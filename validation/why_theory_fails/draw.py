@@ -27,7 +27,7 @@ class Rungs(Protocol):
 
 def theory_line(run: ValidationCase, *options: object) -> list[tuple[float, float]]:
     rows = [(g / 100, run.json("point", "--throw-number", g / 100, "--tan-vibration-angle", 0.5, "--friction", 0.23, *options))
-            for g in range(140, 311, 5)]
+            for g in run.drawn(range(140, 311, 5))]
     return [(gamma, row["velocity_efficiency"]) for gamma, row in rows if row["velocity_efficiency"] is not None]
 
 

@@ -143,7 +143,8 @@ def main() -> None:
     rungs = Rungs(run.table("result.csv"), swapped=run.control)
     judge(run, rungs)
     findings(run, rungs)
-    draw.figure(run, rungs)
+    if not run.control:
+        draw.figure(run, rungs)
     run.finish()
 
 
