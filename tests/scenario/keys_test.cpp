@@ -77,7 +77,7 @@ TEST(Keys, WhatIsSetIsGot) {
         std::string point = (is_of_a_list(key) ? lists : "") +
                             fmt::format("[[points]]\n\"{}\" = {}\n", key.path, key.example);
         if (key.path.starts_with("feed.")) point += "\"trough.side_wall_friction\" = 0\n";
-        if (key.path == "feed.length" || key.path == "feed.height")
+        if (key.path == "feed.length" || key.path == "feed.width" || key.path == "feed.height")
             point += "\"feed.mass_flow\" = \"0.2 t/h\"\n";
         scenario::Scenario const s = scenario::parse_campaign(base + point, "c.toml").cases.front();
         scenario::Content const got = *key.access.get(s);

@@ -31,7 +31,7 @@ TEST(SweptKeys, EveryKeyOfOneValueIsKnown) {
     scenario.trough.mesh = std::make_shared<TroughMesh>(mesh);
     scenario.measure.max_core_time = 1;
     scenario.measure.min_cycles = 1;
-    scenario.feed = {0.1, 0.02, 0.04};
+    scenario.feed = {0.1, 0.02, 0.01, 0.04};
     scenario.screen = {0.005, 0.001, 2.0};
     for (Key const& key : all_keys()) {
         if (can_vary(key) && !is_list_section(key.path.substr(0, key.path.find('.')))) {

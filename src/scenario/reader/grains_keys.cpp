@@ -135,7 +135,7 @@ constexpr std::array rows_of_grains{
         "not given",
         field<&Scenario::feed, &Feed::length>},
     Key{"feed.width", quantity, "m", 1e-6, 10, "from 4 of the largest diameters to layer.width", "", optional,
-        "\"30 mm\"",
+        "\"15 mm\"",
         "width of the stream, which falls into the middle of the trough; as wide as the trough if it is not "
         "given",
         field<&Scenario::feed, &Feed::width>},
