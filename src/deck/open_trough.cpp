@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,8 +29,7 @@ void describe_gate(core::TemplateData& data, prepare::PreparedCase const& n) {
     if (slopes) data.set("gate_model", std::string(name_of(s.engine.contact)));
 }
 
-/// The feed of a part of a staged drive, or of several that are alike. The engine counts the grains that it
-/// feeds at each time with the time step with which the feed was made.
+/// The feed of a part of a staged drive, or of several that are alike.
 struct StagedFeed {
     double mass_flow;   ///< kg/s
     double cycle_time;  ///< s
@@ -52,31 +52,50 @@ std::vector<StagedFeed> staged_feeds(prepare::PreparedCase const& n) {
     return feeds;
 }
 
+bool is_mixture(prepare::PreparedCase const& n) {
+    return n.materials.size() > 1;
+}
+
+/// kg, of a grain of the feed as the deck gives its classes to the engine.
+double mean_mass(prepare::PreparedCase const& n) {
+    double mass = 0, number = 0;
+    for (prepare::ClassCount const& size : n.classes) {
+        double const density = n.materials[static_cast<std::size_t>(size.material)].grains.density;
+        double const share = is_mixture(n) ? size.share : size.count;
+        mass += share * density * std::numbers::pi / 6 * std::pow(size.diameter, 3);
+        number += share;
+    }
+    return mass / number;
+}
+
 /// How many of the cycles of a part have ended, as a formula of the engine: v_ended are those of all.
 std::string ended_of(StagedFeed const& feed) {
     return fmt::format("((v_ended>{0})*(v_ended-{0})-(v_ended>{1})*(v_ended-{1}))", feed.first, feed.last);
 }
 
+/// The engine works out how many grains a feed drops at a time when the first cycle after its making begins,
+/// with the time step of that cycle: hence the ratio of the cycle times.
 void describe_staged_feed(core::TemplateData& data, prepare::PreparedCase const& n, int packing) {
-    scenario::Scenario const& s = n.scenario;
-    double const mean_mass = mean_density(s) * mean_grain_volume(s);
+    constexpr int most_seeds = 1700;  // of the primes that seed_number() knows
     std::vector<core::TemplateData> list;
-    std::string number = "0", mass = "0", time = "0", due = "0";
+    std::string number = "0", mass = "0", time = "0", due = "0", now = "0";
+    double before = 0;
     for (StagedFeed const& feed : staged_feeds(n)) {
         int const index = static_cast<int>(list.size()) + 1;
-        double const in_cycle = feed.mass_flow * feed.cycle_time;
-        long const count = std::lround(in_cycle * (feed.last - feed.first) / mean_mass);
+        double const in_cycle = feed.mass_flow * feed.cycle_time / mean_mass(n);
+        long const count = std::lround(in_cycle * (feed.last - feed.first));
         time += fmt::format("+{}*{}", feed.cycle_time, ended_of(feed));
+        now += fmt::format("+({})*(${{done}}>={})", feed.cycle_time - before, feed.first);
+        before = feed.cycle_time;
         if (count < 1) continue;
         due += fmt::format("+{}*{}", in_cycle, ended_of(feed));
         number += fmt::format("+f_feed_{}[1]", index);
         mass += fmt::format("+f_feed_{}[2]", index);
         core::TemplateData entry;
         entry.set("number", std::to_string(index));
-        entry.set("time_step", fmt::format("{}", feed.cycle_time / n.time.steps_per_cycle));
-        entry.set("seed", std::to_string(seed_number(7000 + 100 * index + packing)));
+        entry.set("flow_times", fmt::format("{}", feed.mass_flow * feed.cycle_time));
+        entry.set("seed", std::to_string(seed_number(7000 + (32 * (packing - 1) + index) % most_seeds)));
         entry.set("count", std::to_string(count));
-        entry.set("flow", fmt::format("{}", feed.mass_flow));
         entry.set("first_step", std::to_string(static_cast<long>(feed.first) * n.time.steps_per_cycle + 1));
         list.push_back(std::move(entry));
     }
@@ -84,21 +103,32 @@ void describe_staged_feed(core::TemplateData& data, prepare::PreparedCase const&
     data.set("fed_number", number);
     data.set("fed_in_all", mass);
     data.set("time_formula", time);
+    data.set("cycle_time_now", now);
     data.set("due_formula", due);
 }
 
-/// s, of all cycles.
-double longest_cycle(prepare::PreparedCase const& n) {
-    double longest = n.stages.empty() ? 1 / n.scenario.trough.frequency : 0;
-    for (scenario::DrivePart const& part : drive_parts(n.stages))
-        longest = std::max(longest, part.cycle_time());
-    return longest;
+/// When a feed is late by so much, its grains found no room for some cycles. Numbers are compared where
+/// masses would change with the sizes that happen to be drawn; the engine rounds the number of each drop at
+/// random.
+void describe_overfull(core::TemplateData& data, prepare::PreparedCase const& n) {
+    constexpr double late_cycles = 3, late_grains = 10;  // of the feed, that found no room
+    scenario::Scenario const& s = n.scenario;
+    double const in_cycle = *s.feed.mass_flow * n.domain.open->longest_cycle;
+    bool const by_number = is_mixture(n) || !n.stages.empty();
+    data.set("by_number", by_number);
+    data.set("fed_grain", fmt::format("{}", mean_mass(n)));
+    double const largest =
+        n.mass / s.layer.grains * std::pow(n.classes.front().diameter / mean_diameter(s), 3);
+    double const drops = prepare::feeds_per_cycle * s.measure.max_cycles;
+    double const scatter = 4 * std::sqrt(drops) / 2;
+    data.set("overfull_mass",
+             fmt::format("{:.6g}", by_number ? late_cycles * in_cycle / mean_mass(n) + late_grains + scatter
+                                             : late_cycles * in_cycle + late_grains * largest));
 }
 
 }  // namespace
 
 void describe_open(core::TemplateData& data, prepare::PreparedCase const& n, int packing) {
-    constexpr double late_cycles = 3, late_grains = 10;  // of the feed, that found no room
     scenario::Scenario const& s = n.scenario;
     data.set("open", n.domain.open.has_value());
     data.set("gate", false);
@@ -134,10 +164,7 @@ void describe_open(core::TemplateData& data, prepare::PreparedCase const& n, int
                                                                {"out_z", open.out_z},
                                                                {"along_bin", open.bin}})
         data.set(name, fmt::format("{}", value));
-    double const largest =
-        n.mass / s.layer.grains * std::pow(n.classes.front().diameter / mean_diameter(s), 3);
-    data.set("overfull_mass",
-             fmt::format("{:.6g}", late_cycles * flow * longest_cycle(n) + late_grains * largest));
+    describe_overfull(data, n);
     data.set("fed_number", std::string("f_feed[1]"));
     data.set("fed_in_all", std::string("f_feed[2]"));
     if (!n.stages.empty()) describe_staged_feed(data, n, packing);
@@ -151,7 +178,8 @@ void check_filling(std::vector<Finding>& findings, prepare::PreparedCase const& 
              fmt::format("raise it to {:.0f} or more, and max_cycles with it, so that the trough is full for "
                          "half of the cycles",
                          std::ceil(2 * cycles))));
-    double const needed = layer_under_feed(s) + 2 * largest_diameter(s);
+    // A narrow stream may make a heap.
+    double const needed = layer_under_feed(s) * s.layer.width / feed_width(s) + 2 * largest_diameter(s);
     findings.push_back(
         most("expected layer and two grains / height of the feed", "feed.height", needed / feed_height(s), 1,
              never,

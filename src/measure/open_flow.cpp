@@ -193,13 +193,21 @@ OpenFlow open_flow(CycleSeries const& series, std::vector<LeftGrain> const& left
     flow.inflow = (at(open.fed_mass, to) - at(open.fed_mass, from)) / time;
     double const left_per_cycle = mean_of(open.left_mass, from + 1, to + 1);
     flow.outflow = is_steady ? left_per_cycle / facts.period : left_per_cycle * (to - from) / time;
-    flow.hold_up = mean_of(open.held_mass, from + 1, to + 1);
-    flow.window_depth =
-        mean_of(open.window_mass, from + 1, to + 1) / (facts.bulk_density * facts.window * facts.width);
+    auto const mean_over_time = [&](std::vector<double> const& values) {
+        if (is_steady) return mean_of(values, from + 1, to + 1);
+        double sum = 0;
+        for (int k = from + 1; k <= to; ++k)
+            sum += at(values, k) *
+                   (facts.ends[static_cast<std::size_t>(k)] - facts.ends[static_cast<std::size_t>(k) - 1]);
+        return sum / time;
+    };
+    flow.hold_up = mean_over_time(open.held_mass);
+    flow.window_depth = mean_over_time(open.window_mass) / (facts.bulk_density * facts.window * facts.width);
     if (is_steady) flow.fill_time = fill_time(open.held_mass, *flow.hold_up, facts.period);
     std::vector<LeftGrain> const gone = counted(left, facts);
     std::vector<Stay> const stays = stays_of(series, gone, facts);
     add_residence(flow, stays);
+    if (!is_steady) flow.peclet.reset();  // its equation is that of a steady stream
     std::vector<Snapshot> const snapshots = on_trough(parse_snapshots(files, folder, "along"), facts);
     flow.along = along_trough(snapshots, facts);
     if (facts.mixture.types.empty()) return flow;

@@ -24,6 +24,7 @@ struct OpenTrough {
     double window_start, window_end;  ///< ends of the piece of trough whose speed is measured
     double out_x;                     ///< behind it grains have left the trough
     double out_near_x, out_z;         ///< so have grains that are behind out_near_x and below out_z
+    double longest_cycle;             ///< s, of the drive
     double bin;                       ///< length of a bin along the trough
     double box_start, box_end;        ///< ends of the box along the trough
     double box_side;                  ///< of the box beyond each side wall

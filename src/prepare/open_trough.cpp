@@ -7,11 +7,6 @@
 namespace vibrotrough::prepare {
 namespace {
 
-/// s, of all cycles of the drive.
-double longest_cycle(PreparedCase const& c) {
-    return c.stages.empty() ? 1 / c.scenario.trough.frequency : std::ranges::max(cycle_durations(c.stages));
-}
-
 /// m/s, of a grain of the feed that fell to the floor and downhill to the edge: a collision may turn it in
 /// any direction.
 double speed_of_feed(OpenTrough const& open, PreparedCase const& c) {
@@ -22,7 +17,8 @@ double speed_of_feed(OpenTrough const& open, PreparedCase const& c) {
 }
 
 /// How much faster a light grain of a mixture can be than a heavy one that hits it: 2 M / (M + m), of an
-/// elastic impact of the heaviest grain on the lightest one at rest.
+/// elastic impact of the heaviest grain on the lightest one at rest. Of one material 1, whatever its sizes
+/// are: with these a box half as wide has been enough, and grains that leave it end a run.
 double speed_of_light_grains(PreparedCase const& c) {
     if (c.materials.size() < 2) return 1;
     double heaviest = 0, lightest = std::numeric_limits<double>::infinity();
@@ -37,10 +33,10 @@ double speed_of_light_grains(PreparedCase const& c) {
 
 /// m, the way of a grain in a cycle, with the speed with which the trough throws it, from the highest point
 /// of its floor to the lowest one, or with this one.
-double longest_flight(PreparedCase const& c, double fed) {
+double longest_flight(OpenTrough const& open, PreparedCase const& c, double fed) {
     double const thrown = std::hypot(2 * speed_of_light_grains(c) * c.largest_speed,
                                      std::sqrt(2 * scenario::gravity * c.domain.floor_top));
-    return std::max(thrown, fed) * longest_cycle(c) + 2 * c.largest_extent;
+    return std::max(thrown, fed) * open.longest_cycle + 2 * c.largest_extent;
 }
 
 /// m, the lowest and the highest point of the trough in its last part of this length.
@@ -56,7 +52,7 @@ std::array<double, 2> heights_near_edge(scenario::Scenario const& s, double part
 void add_screen(OpenTrough& open, PreparedCase const& c, double fall) {
     scenario::Scenario const& s = c.scenario;
     double const grain = c.largest_extent, excursion = c.largest_excursion;
-    double const flight = longest_flight(c, speed_of_feed(open, c));
+    double const flight = longest_flight(open, c, speed_of_feed(open, c));
     open.box_bottom = -(grain + flight + fall + 3 * excursion);
     open.box_start -= open.bin * std::ceil(flight / open.bin);
     open.box_end =
@@ -71,8 +67,10 @@ void add_screen(OpenTrough& open, PreparedCase const& c, double fall) {
 OpenTrough open_trough(PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     double const grain = c.largest_extent, excursion = c.largest_excursion;
-    double const period = longest_cycle(c), length = s.layer.length;
     OpenTrough open{};
+    open.longest_cycle =
+        c.stages.empty() ? 1 / s.trough.frequency : std::ranges::max(cycle_durations(c.stages));
+    double const period = open.longest_cycle, length = s.layer.length;
     open.feed_start = excursion + 0.1 * grain;  // the back wall moves
     open.feed_end = open.feed_start + feed_length(s);
     open.feed_bottom = feed_height(s);
@@ -92,7 +90,7 @@ OpenTrough open_trough(PreparedCase const& c) {
     // A grain of the feed can be thrown to the edge, as far as a ballistic flight is long at most (v^2 / g),
     // with the speed of its fall. The box of a longer trough is not made longer for it.
     double const fed = speed_of_feed(open, c);
-    double const flight = longest_flight(c, way < fed * fed / scenario::gravity ? fed : 0);
+    double const flight = longest_flight(open, c, way < fed * fed / scenario::gravity ? fed : 0);
     double const fall = scenario::gravity * period * period / 2;
     open.bin = length / std::round(length / (2 * mean_diameter(s)));
     open.box_start = -open.bin * std::ceil((excursion + 2 * grain) / open.bin);

@@ -74,7 +74,8 @@ double lead_of(Case record, PackingRecord const& packing, std::size_t material) 
 
 std::vector<double> in_packings(Case record, OfPacking of, std::size_t material) {
     std::vector<double> values;
-    for (PackingRecord const& packing : record.packings) values.push_back(of(record, packing, material));
+    for (PackingRecord const& packing : record.packings)
+        if (double const one = of(record, packing, material); !std::isnan(one)) values.push_back(one);
     return values;
 }
 
@@ -153,7 +154,10 @@ std::vector<Entry> const& materials_entries() {
         {"density", "kg/m3", "Density of its grains"},
         {"friction", "1", "Friction coefficient of the material on itself"},
         {"trough_friction", "1", "Friction coefficient mu on the trough"},
-        {"efficiency", "1", "Velocity efficiency of the material's centre of mass, over the cycles kept"},
+        {"efficiency", "1",
+         "Velocity efficiency of the material's centre of mass, over the cycles kept; in an open trough of "
+         "its "
+         "grains in the window, over the cycles with which flows are measured"},
         {"efficiency_half_width", "1",
          "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one "
          "packing"},

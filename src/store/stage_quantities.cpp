@@ -128,8 +128,9 @@ std::vector<Entry> const& stages_entries() {
         {"amplitude", "m", "Amplitude r behind the ramp; 0 at a standstill"},
         {"conveying_speed", "m/s",
          "Mean velocity of the layer along the trough over the second half of the cycles behind the ramp, "
-         "mean "
-         "over the packings; NaN without such cycles"},
+         "mean over the packings; in an open trough that in the window, 0 while it is empty; NaN without "
+         "such "
+         "cycles"},
         {"conveying_speed_half_width", "m/s", width},
         {"speed_change", "m/s",
          "Mean velocity in the second half of these cycles less that in the first: not 0 while the speed is "

@@ -2,6 +2,7 @@
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,14 +13,14 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// The drive's deck of the example as an open trough of 200 mm that is fed with 36 g/s.
-std::string open_deck(std::string const& sections, std::string const& feed = "") {
+std::string open_deck(std::string const& sections, std::string const& feed = "", int packing = 1) {
     std::string const trough = with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0",
                                     with("height = \"12 mm\"", "", with("36 mm", "200 mm")));
     std::string const base =
         sections.find("[[stages]]") == 0 ? with("max_cycles = 200\n", "", trough) : trough;
     std::string const text = base + "\n[feed]\nmass_flow = \"36 g/s\"\n" + feed + sections;
     auto const prepared = prepare::prepare_case(scenario::parse_campaign(text, "test.toml").cases.front());
-    return make_deck(prepared, {1}).files.at(drive_file);
+    return make_deck(prepared, {packing}).files.at(drive_file);
 }
 
 TEST(OpenDeck, WithoutStagesHasOneFeed) {
@@ -48,10 +49,12 @@ TEST(OpenDeck, StagesOfOneFeedAreTogether) {
     EXPECT_THAT(deck, HasSubstr("fix             feed_2 all"));
     EXPECT_THAT(deck, Not(HasSubstr("feed_3")));
     EXPECT_THAT(deck, HasSubstr("variable        fed_mass equal 0+f_feed_1[2]+f_feed_2[2]\n"));
-    EXPECT_THAT(deck,
-                HasSubstr("*((v_ended>0)*(v_ended-0)-(v_ended>6)*(v_ended-6))+0.0018"));  // 18 g/s for 100 ms
-    EXPECT_THAT(deck, HasSubstr("*((v_ended>9)*(v_ended-9)-(v_ended>13)*(v_ended-13))-v_fed_mass\n"));
+    EXPECT_THAT(deck, HasSubstr("*((v_ended>0)*(v_ended-0)-(v_ended>6)*(v_ended-6))+"));
+    EXPECT_THAT(deck, HasSubstr("*((v_ended>9)*(v_ended-9)-(v_ended>13)*(v_ended-13))-v_fed\n"));
     EXPECT_THAT(deck, HasSubstr("+0.1*((v_ended>9)*(v_ended-9)-(v_ended>13)*(v_ended-13))\n"));
+    EXPECT_THAT(deck,
+                HasSubstr("variable        rate equal 0.0018"));  // 36 g/s for 50 ms and 18 g/s for 100 ms
+    EXPECT_THAT(deck, HasSubstr("variable        cycle_time equal 0+(0.05)*(${done}>=0)"));
     EXPECT_THAT(deck, HasSubstr("equal (1>v_now)*1+(1<=v_now)*2000000000\n"));
 }
 
@@ -65,6 +68,15 @@ TEST(OpenDeck, MaterialsAreToldByTheirType) {
         HasSubstr(" density/mass vx v_mass_0 v_momentum_0 v_moment_0 v_mass_1 v_momentum_1 v_moment_1 "));
     EXPECT_THAT(deck, HasSubstr(" id x vx type mass\n"));
     EXPECT_THAT(deck, Not(HasSubstr("group           material")));
+}
+
+// As many feeds as there may be, in the last packing there may be: every feed has its seed.
+TEST(OpenDeck, ManyFeedsHaveTheirSeeds) {
+    std::string stages;
+    for (int i = 0; i < 16; ++i)
+        stages += fmt::format("[[stages]]\ncycles = 3\nramp_cycles = 1\nfrequency = \"{} Hz\"\n",
+                              i % 2 == 0 ? 20 : 10);
+    for (int const packing : {1, 1000}) EXPECT_THAT(open_deck(stages, "", packing), HasSubstr("feed_31 all"));
 }
 
 }  // namespace

@@ -136,8 +136,13 @@ void print_feeds(scenario::Campaign const& campaign) {
     std::vector<double> flows, rates;
     for (auto const& one : campaign.cases) {
         if (!is_open(one)) continue;
-        flows.push_back(*one.feed.mass_flow);
-        rates.push_back(flows.back() / (mean_density(one) * mean_grain_volume(one)));
+        std::vector<double> of_case;
+        for (scenario::Stage const& stage : stages(one)) of_case.push_back(stage.mass_flow);
+        if (of_case.empty()) of_case.push_back(*one.feed.mass_flow);
+        for (double const flow : of_case) {
+            flows.push_back(flow);
+            rates.push_back(flow / (mean_density(one) * mean_grain_volume(one)));
+        }
     }
     if (flows.empty()) return;
     auto const range = [](std::vector<double> const& values, double factor, char const* unit) {

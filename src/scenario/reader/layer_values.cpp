@@ -154,7 +154,13 @@ int grains_for(double height, Scenario const& scenario, GivenKeys const& given) 
 
 /// The number of grains that the feed will probably keep in the trough.
 int grains_of_feed(Scenario const& s, GivenKeys const& given) {
-    double const mass = *s.feed.mass_flow * s.layer.length / expected_speed(s);
+    double mass = s.stages.empty() ? *s.feed.mass_flow * s.layer.length / expected_speed(s) : 0;
+    for (Stage const& stage : stages(s)) {
+        if (stage.standstill) continue;
+        Scenario driven = s;
+        driven.trough = stage.trough;
+        mass = std::max(mass, stage.mass_flow * s.layer.length / expected_speed(driven));
+    }
     double const count = mass / (mean_density(s) * mean_grain_volume(s));
     Key const& key = *find_key("layer.grains");
     if (count > key.most)
