@@ -271,7 +271,7 @@ void add_plot(CLI::App& program, int& exit_code) {
   profiles    for each case: velocity over height
   impacts     for each case with measure.impacts: how often impacts have which energy
   partition   for each case with a screen: the share of each size that stays
-  segregation for each case with several materials: their segregation index over time, or along an open trough
+  segregation for each mixture: its segregation index over time, or along an open trough
   along       for each open trough: depth and speed along it
   residence   for each open trough: the distribution of the residence times
   stages      for each case with stages: the speed over their cycles
