@@ -68,9 +68,8 @@ std::vector<core::TemplateData> describe_classes(prepare::PreparedCase const& n,
         entry.set("of_material",
                   n.materials.size() == 1 ? std::string() : fmt::format(" ({})", material_of(n, size).name));
         entry.set("count_so_far", std::to_string(so_far));
-        bool const is_fed_mixture = is_open(n.scenario) && n.materials.size() > 1;
-        entry.set("mass_share", rounded((is_fed_mixture ? size.share : size.count) *
-                                        material_of(n, size).grains.density * std::pow(size.diameter, 3)));
+        entry.set("mass_share",
+                  rounded(size.share * material_of(n, size).grains.density * std::pow(size.diameter, 3)));
         entry.set("template", template_of(n, size, index));
         entry.set("insertion_seed", std::to_string(seed_number(stride * (packing - 1) + index)));
         entry.set("distribution_seed", std::to_string(seed_number(4010 + 100 + index)));

@@ -61,9 +61,8 @@ double mean_mass(prepare::PreparedCase const& n) {
     double mass = 0, number = 0;
     for (prepare::ClassCount const& size : n.classes) {
         double const density = n.materials[static_cast<std::size_t>(size.material)].grains.density;
-        double const share = is_mixture(n) ? size.share : size.count;
-        mass += share * density * std::numbers::pi / 6 * std::pow(size.diameter, 3);
-        number += share;
+        mass += size.share * density * std::numbers::pi / 6 * std::pow(size.diameter, 3);
+        number += size.share;
     }
     return mass / number;
 }

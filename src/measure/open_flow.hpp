@@ -40,7 +40,7 @@ struct OpenFacts {
     /// mean depth there (m). Only of a trough with a mesh.
     std::function<double(double x, double mean_depth)> level = {};
     MixtureFacts mixture = {};  ///< of several materials
-    /// s, the ends of cycle 0 ... n, where the cycles differ. There is no time to fill then.
+    /// s, the ends of cycle 0 ... n, where the cycles differ. The time to fill is not measured then.
     std::vector<double> ends = {};
 };
 

@@ -18,7 +18,7 @@ double speed_of_feed(OpenTrough const& open, PreparedCase const& c) {
 
 /// How much faster a light grain of a mixture can be than a heavy one that hits it: 2 M / (M + m), of an
 /// elastic impact of the heaviest grain on the lightest one at rest. Of one material 1, whatever its sizes
-/// are: with these a box half as wide has been enough, and grains that leave it end a run.
+/// are: in the validation cases none has left a box half as wide. A grain that leaves the box ends the run.
 double speed_of_light_grains(PreparedCase const& c) {
     if (c.materials.size() < 2) return 1;
     double heaviest = 0, lightest = std::numeric_limits<double>::infinity();
@@ -95,7 +95,8 @@ OpenTrough open_trough(PreparedCase const& c) {
     open.bin = length / std::round(length / (2 * mean_diameter(s)));
     open.box_start = -open.bin * std::ceil((excursion + 2 * grain) / open.bin);
     open.box_end = open.out_x + flight + fall * std::abs(std::sin(s.trough.inclination));
-    // Light grains of a mixture were seen to leave sideways with more than half of this speed.
+    // Sideways the margin was narrowest when a light grain of a mixture left the box
+    // (validation/fed_mixture).
     open.box_side = c.materials.size() > 1 ? flight : flight / 2;
     open.box_bottom = std::min(open.out_z, -near) - flight - fall;
     if (is_screen(s)) add_screen(open, c, fall);

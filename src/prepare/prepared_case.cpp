@@ -114,6 +114,8 @@ void prepare_grains(PreparedCase& c, ClumpMaker& clumps) {
     c.materials = materials(s);
     bool const is_fed_mixture = is_open(s) && c.materials.size() > 1;
     c.classes = count_classes(c.materials, s.layer.grains, is_fed_screen(s) || is_fed_mixture);
+    for (ClassCount& size : c.classes)
+        if (!is_fed_mixture) size.share = size.count;
     if (s.layer.block == scenario::Block::plate) c.clump = clumps.plate(s.grains.diameter);
     if (is_clump(s.grains)) c.clump = clumps.clump(s.grains);
     c.spheres_per_grain = c.clump ? static_cast<int>(c.clump->spheres.size()) : 1;

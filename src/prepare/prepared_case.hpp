@@ -17,7 +17,7 @@ struct ClassCount {
     double diameter;   ///< m
     int count;         ///< number of grains, at least 1
     int material = 0;  ///< index in `materials`
-    double share = 0;  ///< of all grains, by number, before `count` was rounded
+    double share = 0;  ///< in a feed, by number: `count`, or of a mixture the exact fraction of all grains
 };
 
 /// Everything that follows from a scenario and that more than one room needs. It is worked out once and read
