@@ -79,11 +79,15 @@ def campaign_text(changes=None, sweep=None):
 
 
 def wait_until(question, what, watched=None):
-    """Asks until the answer is truthy, and returns it. `watched`: a process that must not end before."""
+    """Asks until the answer is truthy, and returns it. `watched`: a process that must not end before.
+    A folder that the program renames while the question lists it is asked about again."""
     deadline = time.monotonic() + PATIENCE
     while True:
         ended = watched is not None and watched.poll() is not None
-        answer = question()
+        try:
+            answer = question()
+        except FileNotFoundError:
+            answer = None
         if answer:
             return answer
         if ended:
