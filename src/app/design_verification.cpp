@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr int most_machines = 12;
 /// As precise and as large as the layers of the atlas. Several layers together tell the error of a model, and
 /// what they leave open makes the next machine's layer deeper.
-constexpr double half_width = 0.08, box_length = 8, box_width = 5;
+constexpr double wanted_half_width = 0.08, box_length = 8, box_width = 5;
 
 /// What the simulation of one machine said.
 struct Simulated {
@@ -167,7 +167,7 @@ class Verifier {
     }
 
     learn::CheckedLayer layer() const {
-        return {*original_.grain_diameter, half_width, box_length, box_width};
+        return {*original_.grain_diameter, wanted_half_width, box_length, box_width};
     }
     learn::Verification& verification() { return found_.verification; }
 

@@ -39,7 +39,7 @@ struct Sums {
 
 std::vector<Sums> sums_of(CycleSeries const& series, std::vector<SizeFlow> const& flows, std::size_t cycle,
                           double largest) {
-    constexpr double of_a_grain = 1e-6, rounding = 1e-12;
+    constexpr double of_a_grain = 1e-6, of_rounding = 1e-12;
     OpenSeries const& open = series.open;
     auto const number = [&](std::vector<double> SizeFlow::*list) {
         return over_sizes(flows, [&](SizeFlow const& one) { return (one.*list)[cycle]; });
@@ -54,7 +54,7 @@ std::vector<Sums> sums_of(CycleSeries const& series, std::vector<SizeFlow> const
             {"kg are on the screen", open.held_mass[cycle], mass(&SizeFlow::held), allowed},
             {"grains were fed", open.fed[cycle], number(&SizeFlow::fed)},
             {"kg were fed", open.fed_mass[cycle], mass(&SizeFlow::fed),
-             allowed + rounding * open.fed_mass[cycle]}};
+             allowed + of_rounding * open.fed_mass[cycle]}};
 }
 
 double sum_after(std::vector<double> const& values, int from, int to) {

@@ -18,7 +18,7 @@ constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz";
 
 // In the order in which add_observables() writes them; the mean has the unit and the meaning of its
 // observable.
-constexpr std::array entries{
+constexpr std::array known_observables{
     ObservableEntry{"mean", "float64", "cases", "of the observable",
                     "Mean over the packings of a number; NaN in cases where it was not measured"},
     ObservableEntry{"half_width", "float64", "cases", "of the observable",
@@ -67,7 +67,7 @@ class Group {
     }
 
     static std::string_view meaning_of(std::string_view name) {
-        return std::ranges::find(entries, name, &ObservableEntry::name)->meaning;
+        return std::ranges::find(known_observables, name, &ObservableEntry::name)->meaning;
     }
 
     void text(std::string_view name, std::string const& value) {
@@ -182,7 +182,7 @@ void add_observables(Hdf5MemoryFileWriter& file, std::span<CaseRecord const> cas
 }
 
 std::span<ObservableEntry const> observable_entries() {
-    return entries;
+    return known_observables;
 }
 
 }  // namespace vibrotrough::store

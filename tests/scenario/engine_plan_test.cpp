@@ -12,18 +12,19 @@ namespace {
 
 using testing::HasSubstr;
 
-FileSource const files{{},
-                       {{"a.liggghts",
-                         "# a comment\n[after-contact]\nfix a all viscous 0.1  # drag\n\n[at-cycle-end]\n"
-                         "print\t\"cycle ${done}\"\r\n"},
-                        {"b.liggghts", "[before-first-cycle]\ncompute b all ke"},
-                        {"contact.mustache", "text"}}};
+FileSource const known_files{
+    {},
+    {{"a.liggghts",
+      "# a comment\n[after-contact]\nfix a all viscous 0.1  # drag\n\n[at-cycle-end]\n"
+      "print\t\"cycle ${done}\"\r\n"},
+     {"b.liggghts", "[before-first-cycle]\ncompute b all ke"},
+     {"contact.mustache", "text"}}};
 
 Campaign campaign(std::string const& engine, std::string const& text = example_campaign) {
-    return parse_campaign(text + "[engine]\n" + engine, "test.toml", files);
+    return parse_campaign(text + "[engine]\n" + engine, "test.toml", known_files);
 }
 
-std::string error_of(std::string const& engine, FileSource const& source = files,
+std::string error_of(std::string const& engine, FileSource const& source = known_files,
                      std::string const& text = example_campaign) {
     try {
         parse_campaign(text + "[engine]\n" + engine, "test.toml", source);
@@ -71,11 +72,11 @@ TEST(EnginePlan, IsSwept) {
                                               "[sweep]\n\"engine.contact\" = [\"hertz\", \"hooke\"]\n"
                                               "\"engine.extra\" = [\"none\", \"b.liggghts\"]\n"
                                               "\"engine.cohesion\" = [\"0 J/m3\", \"1 kJ/m3\"]\n",
-                                          "test.toml", files);
+                                          "test.toml", known_files);
     ASSERT_EQ(swept.cases.size(), 8u);
     EXPECT_EQ(std::get<std::string>(*key_value(swept.cases.back(), "engine.contact")), "hooke");
     EXPECT_EQ(std::get<std::string>(*key_value(swept.cases.back(), "engine.extra")), "b.liggghts");
-    auto const read = parse_campaign(campaign_toml(swept.cases, "all"), "all.toml", files).cases;
+    auto const read = parse_campaign(campaign_toml(swept.cases, "all"), "all.toml", known_files).cases;
     ASSERT_EQ(read.size(), 8u);
     for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(to_toml(read[i]), to_toml(swept.cases[i]));
 }
@@ -92,8 +93,8 @@ TEST(EnginePlan, MistakesAreNamed) {
     EXPECT_THAT(error_of("templates = [\"contact.mustache\", \"contact.mustache\"]\n"), HasSubstr("twice"));
     std::string const block =
         with("height = \"12 mm\"", "block = \"point\"", with("diameter_spread = 0.1", ""));
-    EXPECT_THAT(error_of("contact = \"hooke\"\n", files, block), HasSubstr("contact of its own"));
-    EXPECT_THAT(error_of("cohesion = \"1 J/m3\"\n", files, block), HasSubstr("contact of its own"));
+    EXPECT_THAT(error_of("contact = \"hooke\"\n", known_files, block), HasSubstr("contact of its own"));
+    EXPECT_THAT(error_of("cohesion = \"1 J/m3\"\n", known_files, block), HasSubstr("contact of its own"));
 }
 
 // What would escape the case's id, or end, repeat or shift the cycles, is found.

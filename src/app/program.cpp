@@ -1,0 +1,255 @@
+#include "app/program.hpp"
+
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+#include "app/help_formatter.hpp"
+#include "app/process.hpp"
+#include "app/standard_streams.hpp"
+#include "app/version_text.hpp"
+#include "app/with_vtk.hpp"
+#include "core/error.hpp"
+#include "core/limits.hpp"
+#include "core/nearest.hpp"
+#include "core/text.hpp"
+#include "scenario/reader/other_words.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+/// The beginning of 'vibrotrough --help': what people come for, with an example each.
+constexpr char const* tasks =
+    R"(Measures with LIGGGHTS simulations (DEM) how fast a vibrating trough conveys a granular layer, and compares it with
+the point-mass theory of vibratory conveying
+
+What do you want to do?
+
+  learn it by an example, from a question to a figure, or to a design that is signed:
+      vibrotrough tutorial depth
+      vibrotrough tutorial design
+  size a trough for a mass flow, and know how sure that is:
+      vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
+          --friction 0.3 --friction-uncertainty 0.03
+  know the speed of a machine, by the theory:
+      vibrotrough theory point --frequency "800 rpm" --stroke "12 mm" \
+          --vibration-angle "30 deg" --friction 0.3
+  know the friction of a material, from a shake test:
+      vibrotrough theory friction --machine-number 1.5 --max-relative-displacement 1.9
+  know the friction of a material, from speeds that were measured:
+      vibrotrough theory calibrate speeds.csv --free friction
+  know what my layer does, by simulation:
+      vibrotrough init pellets       # writes pellets.toml, a campaign file to change
+      vibrotrough check pellets.toml
+      vibrotrough run pellets.toml --jobs 2
+      vibrotrough report runs/pellets
+  see how far a campaign is:
+      vibrotrough status runs/pellets
+  compare layer and theory:
+      vibrotrough compare runs/pellets --sort difference:desc
+  measure something of my own, with a function in Python:
+      vibrotrough observe --examples > my_observables.py
+      vibrotrough observe runs/pellets my_observables.py --allow-python my_observables.py
+  give a campaign to the readers of a paper:
+      vibrotrough archive runs/pellets
+  know how large the numerical error is:
+      vibrotrough convergence runs/pellets
+  see the grains in ParaView:
+      vibrotrough export runs/pellets)";
+
+void add_commands(CLI::App& program, int& exit_code) {
+    add_tutorial(program, exit_code);
+    add_init(program, exit_code);
+    add_run(program, exit_code);
+    add_plan(program, exit_code);
+    add_prepare(program, exit_code);
+    add_work(program, exit_code);
+    add_keys(program, exit_code);
+    add_quantities(program, exit_code);
+    add_deck(program, exit_code);
+    add_measure(program, exit_code);
+    add_status(program, exit_code);
+    add_friction_test(program, exit_code);
+    add_convergence(program, exit_code);
+    add_capacity(program, exit_code);
+    add_compare(program, exit_code);
+    add_observe(program, exit_code);
+    add_archive(program, exit_code);
+    add_learn(program, exit_code);
+    add_predict(program, exit_code);
+    add_calibrate(program, exit_code);
+    add_design(program, exit_code);
+    add_export(program, exit_code);
+    add_plot(program, exit_code);
+    add_report(program, exit_code);
+    add_page(program, exit_code);
+    add_check(program, exit_code);
+    add_probe_engine(program, exit_code);
+    add_validate(program, exit_code);
+    add_cite(program, exit_code);
+    add_manual(program, exit_code);
+    add_completion(program, exit_code);
+    CLI::App* const theory =
+        program.add_subcommand("theory", "Solve the point-mass theory of vibratory conveying");
+    theory->require_subcommand(1);
+    theory->footer(
+        R"(These commands need microseconds to seconds and no simulation. 'vibrotrough theory COMMAND --help'
+explains a command. Example:
+  vibrotrough theory point --throw-number 2 --vibration-angle "30 deg" --friction 0.23)");
+    add_theory_point(*theory, exit_code);
+    add_theory_map(*theory, exit_code);
+    add_theory_trace(*theory, exit_code);
+    add_theory_limits(*theory, exit_code);
+    add_theory_friction(*theory, exit_code);
+    add_theory_sensitivity(*theory, exit_code);
+    add_theory_design(*theory, exit_code);
+    add_theory_batch(*theory, exit_code);
+    add_theory_calibrate(*theory, exit_code);
+}
+
+/// Names of the commands of a command.
+std::vector<std::string_view> commands_below(CLI::App const& command) {
+    std::vector<std::string_view> names;
+    for (CLI::App const* one : command.get_subcommands([](CLI::App const*) { return true; }))
+        names.push_back(one->get_name());
+    return names;
+}
+
+/// The option of a command that is meant by one that it does not have: by spelling, or by meaning, as in a
+/// campaign file ("--mu" is --friction). Empty when none is.
+std::string option_meant(CLI::App const& command, std::string const& given) {
+    std::vector<std::string_view> names;
+    for (CLI::Option const* one : command.get_options())
+        for (std::string const& name : one->get_lnames()) names.emplace_back(name);
+    std::string word =
+        given.substr(given.find_first_not_of('-'), given.find('=') - given.find_first_not_of('-'));
+    std::string_view meant;
+    std::string key(scenario::key_in_other_words(word));
+    key.erase(0, key.rfind('.') + 1);
+    std::ranges::replace(key, '_', '-');
+    if (auto const found = std::ranges::find(names, key); found != names.end()) meant = *found;
+    if (meant.empty()) meant = core::nearest_word(word, names);
+    return meant.empty() ? "" : fmt::format("--{}", meant);
+}
+
+/// The words that a command does not know, in the order in which they were written. CLI11 turns it round.
+/// @param path  the command with the program's name, which run_program() says by itself
+std::string unknown_words(CLI::App const& command, std::string const& path, int argc, char** argv) {
+    std::string const name = path.substr(path.find(' ') + 1);
+    std::vector<std::string> rest = command.remaining();
+    std::string said, meant;
+    for (int i = 1; i < argc; ++i) {
+        std::string const word = argv[i];
+        auto const unknown = std::ranges::find(rest, word);
+        if (unknown == rest.end()) continue;
+        rest.erase(unknown);
+        said += " " + word;
+        bool const is_option = word.starts_with("-") && word.find_first_not_of("-.0123456789") != word.npos;
+        if (is_option && meant.empty()) meant = option_meant(command, word);
+    }
+    if (!meant.empty()) return fmt::format("{} does not know{}; did you mean {}?", name, said, meant);
+    return fmt::format("{} does not know{}; see '{} --help'", name, said, path);
+}
+
+/// One line for an error of the command line. CLI11 itself prints two lines, and does not name a misspelt
+/// command.
+std::string describe(CLI::ParseError const& error, CLI::App const& program, int argc, char** argv) {
+    CLI::App const* command = &program;
+    std::string path = "vibrotrough", problem = error.what();
+    for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+        std::string const word = argv[i];
+        auto const named =
+            command->get_subcommands([&](CLI::App const* one) { return one->get_name() == word; });
+        if (named.empty()) {
+            auto const commands = commands_below(*command);
+            if (commands.empty()) break;
+            std::string_view const nearest = core::nearest_word(word, commands);
+            problem = fmt::format("there is no command '{}'", word);
+            if (!nearest.empty()) return fmt::format("{}; did you mean '{} {}'?", problem, path, nearest);
+            break;
+        }
+        command = named.front();
+        path += " " + word;
+    }
+    bool const is_extra = dynamic_cast<CLI::ExtrasError const*>(&error) != nullptr;
+    if (is_extra && commands_below(*command).empty()) return unknown_words(*command, path, argc, argv);
+    return fmt::format("{}; see '{} --help'", problem, path);
+}
+
+int run(int argc, char** argv) {
+    CLI::App program{tasks};
+    program.name("vibrotrough");
+    program.formatter(std::make_shared<HelpFormatter>());
+    program.footer("'vibrotrough COMMAND --help' explains a command and gives an example.");
+    program.set_version_flag("--version", version_text,
+                             "Print version, commit, libraries and engine, and exit");
+    program.require_subcommand(1);
+    int exit_code = all_well;
+    add_commands(program, exit_code);
+    try {
+        program.parse(argc, argv);
+    } catch (CLI::Success const& help_or_version) {
+        program.exit(help_or_version);
+    } catch (CLI::ParseError const& error) {
+        throw core::InputError(describe(error, program, argc, argv));
+    } catch (std::invalid_argument const& error) {
+        // The theory, which knows no options, refuses inputs that it does not cover.
+        if (!program.got_subcommand("theory")) throw;
+        throw core::InputError(fmt::format("{}; write other values", error.what()));
+    }
+    return exit_code;
+}
+
+/// When the disk is full, a table that could not be written must not end in exit code 0.
+void flush_output() {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    throw core::MissingError(fmt::format(
+        "cannot write the output ({}); free disk space or choose another place", core::reason_of(errno)));
+}
+
+}  // namespace
+
+int run_program(std::string_view program_with_vtk, int argc, char** argv) {
+    try {
+        continue_with_vtk(program_with_vtk, argc, argv);
+        prepare_process();
+        core::require_open_files(least_open_files, "this program needs");
+        int const exit_code = run(argc, argv);
+        flush_output();
+        return exit_code;
+    } catch (core::Error const& error) {
+        for (std::string const& problem : error.problems())
+            tell("vibrotrough: {}\n", core::harmless(problem));
+        return error.kind() == core::ErrorKind::input ? wrong_input : something_missing;
+    } catch (std::system_error const& error) {
+        tell("vibrotrough: {}; check the disk and its permissions, and the limits (ulimit -a)\n",
+             core::harmless(error.what()));
+        return something_missing;
+    } catch (std::bad_alloc const&) {
+        tell("vibrotrough: there is not enough memory; use a smaller campaign or another machine\n");
+        return something_missing;
+    } catch (std::length_error const&) {
+        tell("vibrotrough: a file or a table is too large for the memory; remove or shorten it\n");
+        return something_missing;
+    } catch (std::exception const& error) {
+        // TBB has no type of its own for a thread that it cannot start.
+        bool const no_thread = std::string_view(error.what()).starts_with("pthread_create has failed");
+        tell("vibrotrough: {}{}\n", no_thread ? "" : "internal error: ",
+             no_thread ? "no further thread can be started: " + core::reason_of(EAGAIN) : error.what());
+        return no_thread ? something_missing : internal_error;
+    }
+}
+
+}  // namespace vibrotrough::app
