@@ -81,6 +81,16 @@ std::vector<SurfacePoint> read_column(std::string_view text, std::string const& 
     return points;
 }
 
+std::vector<LayerMotion> read_modes(std::string_view text, std::string const& file) {
+    core::CsvReader reader(text, file, format());
+    Columns const columns(reader);
+    std::vector<LayerMotion> layers;
+    while (reader.next())
+        if (std::string const mode = columns.text("layer_mode"); !mode.empty())
+            layers.push_back({columns.place(), mode});
+    return layers;
+}
+
 double read_numerical_error(std::string_view text, std::string const& file) {
     core::CsvReader reader(text, file, format());
     Columns const columns(reader);

@@ -57,6 +57,16 @@ std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& 
 std::vector<SurfacePoint> read_column(std::string_view text, std::string const& file,
                                       std::string_view column);
 
+/// How a simulated layer moved.
+struct LayerMotion {
+    Place place;       ///< of the layer
+    std::string mode;  ///< its phases in the order of a cycle, such as FP'NP
+};
+
+/// Reads the modes of a table of layers (column layer_mode). Layers that have none are left out.
+/// @throws core::CsvError that names line and column
+std::vector<LayerMotion> read_modes(std::string_view text, std::string const& file);
+
 /// The mean of the bounds of the layers' numerical errors (95 %), in velocity efficiency: soft grains, a
 /// small box, the time step. More layers do not make it smaller.
 double read_numerical_error(std::string_view text, std::string const& file);

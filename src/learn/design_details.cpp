@@ -86,6 +86,14 @@ ExcitedMachine excited(DesignTask const& t, RiskDesign const& d) {
             usual_drive_power(machine.moving_mass(material), d.drive.amplitude, f)};
 }
 
+/// One line, where the atlas knows the damping of the layer.
+std::string damping_text(MovedMachine const& machine) {
+    if (machine.damping.mean == 0) return "";
+    return fmt::format(
+        "damping           {:.3g} of the material's mass times omega, of its layer (the atlas of layers)\n",
+        machine.damping.mean);
+}
+
 }  // namespace
 
 std::string budget_text(RiskDesign const& d) {
@@ -125,8 +133,9 @@ std::string exciter_text(DesignTask const& t, RiskDesign const& d) {
         t.machine->exciter ? "" : ": what this stroke needs");
     text += fmt::format(
         "stroke when empty {:.4g} mm; {:.3g} kg of material are on the trough, and {:.3g} % of it move "
-        "along ({})\n",
-        2e3 * m.empty, m.material, 100 * t.machine->added_mass.mean, source_of(t.machine->added_mass_source));
+        "along ({})\n{}",
+        2e3 * m.empty, m.material, 100 * t.machine->added_mass.mean, source_of(t.machine->added_mass_source),
+        damping_text(*t.machine));
     if (double const resonance = resonance_of(*t.machine, m.material); resonance > 0)
         text += fmt::format("resonance         {:.4g} 1/min, of the springs\n", 60 * resonance);
     text += fmt::format(
@@ -147,6 +156,7 @@ Json exciter_json(DesignTask const& t, RiskDesign const& d) {
             {"material_kg", m.material},
             {"added_mass_fraction", t.machine->added_mass.mean},
             {"added_mass_from", source_of(t.machine->added_mass_source)},
+            {"damping", t.machine->damping.mean},
             {"stroke_empty_mm", 2e3 * m.empty},
             {"resonance_rpm", 60 * resonance_of(*t.machine, m.material)},
             {"usual_drive_power_w", m.usual_power}};

@@ -11,6 +11,10 @@ namespace {
 constexpr int most_repetitions = 12;
 constexpr double same_stroke = 1e-3;  // relative
 
+Uncertain uncertain(atlas::Bounded const& number) {
+    return {number.value, number.half_width / atlas::deviations_in_half_width};
+}
+
 }  // namespace
 
 double material_on(DesignTask const& task, double depth) {
@@ -28,17 +32,14 @@ std::optional<atlas::LayerLoad> load_of(DesignTask const& task, RiskDesign const
     return atlas::load_at(place);
 }
 
-void settle_added_mass(DesignTask& task, RiskDesign const& design) {
-    if (!task.machine || task.machine->added_mass_source == AddedMassSource::given) return;
+void settle_load(DesignTask& task, RiskDesign const& design) {
+    if (!task.machine) return;
     MovedMachine& machine = *task.machine;
-    if (auto const load = load_of(task, design)) {
-        auto const [value, half_width] = load->added_mass;
-        machine.added_mass = {value, half_width / atlas::deviations_in_half_width};
-        machine.added_mass_source = AddedMassSource::atlas;
-    } else {
-        machine.added_mass = MovedMachine{}.added_mass;
-        machine.added_mass_source = AddedMassSource::maker;
-    }
+    auto const load = load_of(task, design);
+    machine.damping = load ? uncertain(load->damping) : MovedMachine{}.damping;
+    if (machine.added_mass_source == AddedMassSource::given) return;
+    machine.added_mass = load ? uncertain(load->added_mass) : MovedMachine{}.added_mass;
+    machine.added_mass_source = load ? AddedMassSource::atlas : AddedMassSource::maker;
 }
 
 ChosenDesign design_with_exciter(DesignTask const& task,
@@ -50,10 +51,10 @@ ChosenDesign design_with_exciter(DesignTask const& task,
         double const material = material_on(task, depth);
         double const amplitude = amplitude_of(machine, task.space.frequency.low, material);
         one.space.amplitude = {amplitude, amplitude};
-        double const by_mass = amplitude * machine.added_mass.sd * material / machine.moving_mass(material);
-        one.errors.amplitude = std::hypot(task.errors.amplitude, by_mass);
+        double const by_load = amplitude_sd(machine, task.space.frequency.low, material);
+        one.errors.amplitude = std::hypot(task.errors.amplitude, by_load);
         ChosenDesign found = find(one);
-        settle_added_mass(found.task, found.design);
+        settle_load(found.task, found.design);
         machine = *found.task.machine;
         depth = found.design.depth;
         double const under_it = amplitude_of(machine, task.space.frequency.low, material_on(task, depth));

@@ -15,14 +15,14 @@ double material_on(DesignTask const& task, double depth);
 /// among them, or the diameter of its grains is not known.
 std::optional<atlas::LayerLoad> load_of(DesignTask const& task, RiskDesign const& design);
 
-/// Sets the added mass of the machine of a task, unless it was given, to what the layers of the atlas have,
-/// if load_of() knows it.
-void settle_added_mass(DesignTask& task, RiskDesign const& design);
+/// Sets added mass (unless it was given) and damping of the machine of a task to what the layers of the atlas
+/// have, if load_of() knows it, and to what makers count with otherwise.
+void settle_load(DesignTask& task, RiskDesign const& design);
 
 /// Designs a machine whose stroke follows from its exciter: repeats a search with the stroke that the exciter
 /// gives under the layer of the machine found before, until it stays within a thousandth. It begins with the
 /// empty trough, which keeps the limits, too. What is not known
-/// of the added mass counts as an error of the stroke.
+/// of added mass and damping counts as an error of the stroke.
 /// @param task  with a machine that has an exciter, the length of the trough, and, where the machine has
 ///   springs, one frequency
 /// @param find  searches for a machine

@@ -16,15 +16,20 @@ double squared_omega(double frequency) {
     return omega * omega;
 }
 
-/// kg, what acts like a mass: inertia less the springs.
-double effective_mass(MovedMachine const& machine, double frequency, double material) {
+/// kg, what acts like a mass: inertia less the springs; below the resonance less than 0.
+double mass_on_springs(MovedMachine const& machine, double frequency, double material) {
     double const resonance = resonance_of(machine, material);
     if (resonance > 0 && std::abs(frequency / resonance - 1) < near_resonance)
-        throw std::invalid_argument(
-            fmt::format("the drive at {:.4g} 1/min is too near to the resonance of the springs at {:.4g} "
-                        "1/min: the stroke depends on damping there, which is not known",
-                        60 * frequency, 60 * resonance));
-    return std::abs(machine.moving_mass(material) - machine.spring / squared_omega(frequency));
+        throw std::invalid_argument(fmt::format(
+            "the drive at {:.4g} 1/min is too near to the resonance of the springs at {:.4g} "
+            "1/min: the stroke depends on the damping of springs and motors there, which is not known",
+            60 * frequency, 60 * resonance));
+    return machine.moving_mass(material) - machine.spring / squared_omega(frequency);
+}
+
+/// kg, the force over the acceleration: |m - k / omega^2 - i c / omega|.
+double effective_mass(MovedMachine const& machine, double frequency, double material) {
+    return std::hypot(mass_on_springs(machine, frequency, material), machine.damping.mean * material);
 }
 
 }  // namespace
@@ -44,6 +49,15 @@ double resonance_of(MovedMachine const& machine, double material) {
 double amplitude_of(MovedMachine const& machine, double frequency, double material) {
     if (!machine.exciter) throw std::invalid_argument("the machine has no exciter");
     return machine.exciter->static_moment / effective_mass(machine, frequency, material);
+}
+
+double amplitude_sd(MovedMachine const& machine, double frequency, double material) {
+    double const amplitude = amplitude_of(machine, frequency, material);
+    double const effective = effective_mass(machine, frequency, material);
+    // A = M_t / sqrt(x^2 + y^2): dA/dx = -A x / (x^2 + y^2), and likewise for y.
+    double const by_mass = mass_on_springs(machine, frequency, material) * machine.added_mass.sd;
+    double const by_damping = machine.damping.mean * material * machine.damping.sd;
+    return amplitude * material * std::hypot(by_mass, by_damping) / (effective * effective);
 }
 
 Exciter exciter_needed(MovedMachine const& machine, double frequency, double material, double amplitude) {

@@ -37,20 +37,27 @@ struct MovedMachine {
     double spring = 0;               ///< N/m, of all springs in the direction of vibration; 0 when very soft
     std::optional<Exciter> exciter;  ///< nothing: the one that is needed is looked for
     /// The part of the material's mass that moves with the trough. By default as NetterVibration counts;
-    /// layers of spheres have 0.01 to 0.5 (validation/atlas), see settle_added_mass().
+    /// layers of spheres have 0.01 to 0.5 (validation/atlas), see settle_load().
     Uncertain added_mass = between_ends(0.10, 0.25);
     AddedMassSource added_mass_source = AddedMassSource::maker;  ///< where that is from
+    /// The damping that the material adds, over its mass times omega. Makers count with none; layers of
+    /// spheres have 0.19 on average (validation/atlas), see settle_load().
+    Uncertain damping = {0};
 
     /// kg, that move with some material on the trough. @param material  kg
     double moving_mass(double material) const { return mass + added_mass.mean * material; }
 };
 
-/// m, the amplitude that an exciter gives: A = m_u r omega^2 / |k - m omega^2|, the undamped response of one
-/// mass on springs. Far above the resonance it is m_u r / m, whatever the frequency.
+/// m, the amplitude that an exciter gives: A = m_u r omega^2 / |k - m omega^2 + i c omega|, the response of
+/// one mass on springs with the damping c of the material. Far above the resonance it is m_u r / |m - i c /
+/// omega|, whatever the frequency.
 /// @param material  kg, on the trough
 /// @throws std::invalid_argument without an exciter, and within a fifth of the frequency of the resonance,
-///   where the amplitude depends on the damping
+///   where the amplitude depends on the damping of springs and motors
 double amplitude_of(MovedMachine const& machine, double frequency, double material);
+
+/// m, one standard deviation of the amplitude, from what is not known of added mass and damping.
+double amplitude_sd(MovedMachine const& machine, double frequency, double material);
 
 /// The exciter that gives an amplitude, as above. @param amplitude  m
 Exciter exciter_needed(MovedMachine const& machine, double frequency, double material, double amplitude);

@@ -54,14 +54,16 @@ TEST(DrivenDesign, AddedMassIsThatOfTheAtlas) {
     found.design.throw_number = 2;
     found.design.depth = 0.018;
     MovedMachine& machine = *found.task.machine;
-    settle_added_mass(found.task, found.design);
+    settle_load(found.task, found.design);
     EXPECT_EQ(machine.added_mass_source, AddedMassSource::maker);
     found.task.grain_diameter = 0.0045;  // 4 grains
-    settle_added_mass(found.task, found.design);
+    settle_load(found.task, found.design);
     EXPECT_EQ(machine.added_mass_source, AddedMassSource::atlas);
     EXPECT_GT(machine.added_mass.mean, 0.05);
     EXPECT_LT(machine.added_mass.mean, 0.35);
     EXPECT_LT(machine.added_mass.sd, 0.02);
+    EXPECT_GT(machine.damping.mean, 0.05);  // 60 random layers have 0.185 on average
+    EXPECT_LT(machine.damping.mean, 0.35);
     auto const json = design_json(found.task, found.design);
     EXPECT_EQ(json.at("exciter").at("added_mass_from"), "the atlas of layers");
     // The power of the layers between throw numbers 1.9 and 2.2 is 0.89 to 1.05 of the point mass's.
@@ -70,13 +72,14 @@ TEST(DrivenDesign, AddedMassIsThatOfTheAtlas) {
     EXPECT_GT(json.at("power_by_atlas_half_width").get<double>(), 0);
     EXPECT_THAT(design_text(found.task, found.design), testing::HasSubstr(" W by the atlas of layers"));
     found.task.grain_diameter = 0.001;  // 18 grains: deeper than the layers of the atlas
-    settle_added_mass(found.task, found.design);
+    settle_load(found.task, found.design);
     EXPECT_EQ(machine.added_mass_source, AddedMassSource::maker);
     EXPECT_NEAR(machine.added_mass.mean, 0.175, 1e-12);
+    EXPECT_EQ(machine.damping.mean, 0);
     machine.added_mass = {0.4};
     machine.added_mass_source = AddedMassSource::given;
     found.task.grain_diameter = 0.0045;
-    settle_added_mass(found.task, found.design);
+    settle_load(found.task, found.design);
     EXPECT_EQ(machine.added_mass.mean, 0.4);
 }
 

@@ -108,7 +108,7 @@ VerifiedDesign find_design(DesignArguments const& options, learn::DesignTask tas
 int run_design(DesignArguments const& options) {
     VerifiedDesign found = find_design(options, read_task(options));
     if (found.is_interrupted) return interrupted;
-    settle_added_mass(found.task, found.design);
+    settle_load(found.task, found.design);
     learn::DesignTask const& task = found.task;
     learn::RiskDesign const& design = found.design;
     if (!options.campaign.empty()) {

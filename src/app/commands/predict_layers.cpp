@@ -3,6 +3,7 @@
 #include "app/json_list.hpp"
 #include "atlas/atlas.hpp"
 #include "atlas/layer_load.hpp"
+#include "atlas/layer_mode.hpp"
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "prepare/prepared_case.hpp"
@@ -30,9 +31,14 @@ struct PredictedLayer {
     std::optional<double> theory;  ///< velocity efficiency of the point mass
     double velocity_scale;         ///< m/s
     std::optional<atlas::LayerLoad> load;
+    std::optional<atlas::LikelyMode> mode;
     std::optional<atlas::Bounded> power;  ///< W/m^2 of trough
     std::optional<double> speed() const {
         return answer.efficiency ? std::optional(*answer.efficiency * velocity_scale) : std::nullopt;
+    }
+    /// Of the simulated layers that are most alike, those that move so.
+    std::optional<double> mode_share() const {
+        return mode ? std::optional(static_cast<double>(mode->agreeing) / atlas::layers_asked) : std::nullopt;
     }
     std::string outside(std::string atlas::Outside::*part, std::string_view separator) const {
         std::vector<std::string> texts;
@@ -60,9 +66,11 @@ PredictedLayer predict_layer(prepare::PreparedCase const& prepared, std::string 
                          motion.converged ? std::optional(motion.velocity_efficiency) : std::nullopt,
                          prepared.velocity_scale,
                          {},
+                         {},
                          {}};
     if (layer.answer.place) {
         layer.load = atlas::load_at(*layer.answer.place);
+        layer.mode = atlas::mode_at(*layer.answer.place);
         layer.power = power_per_area(*layer.load, prepared, layer.answer.fed_depth);
     }
     return layer;
@@ -115,6 +123,8 @@ Json as_json(PredictedLayer const& layer) {
               {"inside", layer.answer.is_inside()},
               {"outside", names}};
     for (auto const& [name, value] : load_of(layer)) json[name] = number_or_null(value);
+    json["layer_mode"] = layer.mode ? Json(layer.mode->mode) : Json(nullptr);
+    json["layer_mode_share"] = number_or_null(layer.mode_share());
     return json;
 }
 
@@ -125,14 +135,14 @@ std::string cell(std::optional<double> const& value) {
 void print_csv(std::vector<PredictedLayer> const& layers) {
     fmt::print("case,efficiency,half_width,speed_m_per_s,efficiency_theory,inside,outside");
     for (auto const& [name, value] : load_of(layers.front())) fmt::print(",{}", name);
-    fmt::print("\n");
+    fmt::print(",layer_mode,layer_mode_share\n");
     for (PredictedLayer const& layer : layers) {
         fmt::print("{},{},{},{},{},{},{}", core::csv_cell(layer.label), cell(layer.answer.efficiency),
                    cell(layer.answer.half_width), cell(layer.speed()), cell(layer.theory),
                    layer.answer.is_inside() ? 1 : 0,
                    core::csv_cell(layer.outside(&atlas::Outside::name, " ")));
         for (auto const& [name, value] : load_of(layer)) fmt::print(",{}", cell(value));
-        fmt::print("\n");
+        fmt::print(",{},{}\n", layer.mode ? layer.mode->mode : "", cell(layer.mode_share()));
     }
 }
 
@@ -145,19 +155,24 @@ std::string bounded(std::optional<atlas::Bounded> const& one) {
     return one ? with_half_width(one->value, one->half_width) : "-";
 }
 
+std::string mode_cell(PredictedLayer const& layer) {
+    return layer.mode ? fmt::format("{} {}", layer.mode->mode, layer.mode->agreeing) : "-";
+}
+
 void print_text(std::vector<PredictedLayer> const& layers) {
     std::size_t width = 4;
     for (PredictedLayer const& layer : layers) width = std::max(width, layer.label.size());
-    constexpr char const* line = "{:{}}  {:>15}  {:>9}  {:>10}  {:>13}  {:>14}{}\n";
+    constexpr char const* line = "{:{}}  {:>15}  {:>9}  {:>10}  {:>13}  {:>14}  {:>9}{}\n";
     fmt::print(fmt::runtime(line), "case", width, "eta, atlas", "speed", "eta theory", "power", "added mass",
-               "");
-    fmt::print(fmt::runtime(line), "", width, "95 %", "m/s", "point mass", "W/m2, 95 %", "share, 95 %", "");
+               "mode", "");
+    fmt::print(fmt::runtime(line), "", width, "95 %", "m/s", "point mass", "W/m2, 95 %", "share, 95 %",
+               "of 5", "");
     for (PredictedLayer const& layer : layers) {
         auto const& added = layer.load ? std::optional(layer.load->added_mass) : std::nullopt;
         fmt::print(fmt::runtime(line), layer.label, width,
                    with_half_width(layer.answer.efficiency, layer.answer.half_width),
                    core::three_digits(layer.speed()), core::three_digits(layer.theory), bounded(layer.power),
-                   bounded(added), remarks(layer));
+                   bounded(added), mode_cell(layer), remarks(layer));
     }
     bool const is_all_inside =
         std::ranges::all_of(layers, [](PredictedLayer const& layer) { return layer.answer.is_inside(); });

@@ -1,0 +1,45 @@
+#include "atlas/layer_mode.hpp"
+
+#include "atlas/tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace vibrotrough::atlas {
+namespace {
+
+/// The length over which the efficiency varies with each input, in its own units: the mean over the draws.
+std::vector<double> mean_lengths() {
+    auto const draws = read_draws(draws_table, "draws.csv");
+    std::vector<double> lengths;
+    for (SurfaceInput const& input : inputs()) {
+        double sum = 0;
+        for (auto const& draw : draws) sum += draw.lengths(static_cast<Eigen::Index>(lengths.size()));
+        lengths.push_back(sum / static_cast<double>(draws.size()) * (input.high - input.low));
+    }
+    return lengths;
+}
+
+}  // namespace
+
+LikelyMode mode_at(Place const& place) {
+    static std::vector<double> const lengths = mean_lengths();
+    static std::vector<LayerMotion> const layers = read_modes(layers_table, "layers.csv");
+    auto const squared_distance = [&](LayerMotion const& layer) {
+        double sum = 0;
+        for (std::size_t k = 0; k < lengths.size(); ++k)
+            sum += std::pow((layer.place[k] - place[k]) / lengths[k], 2);
+        return sum;
+    };
+    std::vector<LayerMotion> nearest(layers_asked);
+    std::ranges::partial_sort_copy(layers, nearest, {}, squared_distance, squared_distance);
+    auto const agreeing = [&](LayerMotion const& one) {
+        return static_cast<int>(std::ranges::count(nearest, one.mode, &LayerMotion::mode));
+    };
+    // Of modes with as many layers, the one of the nearest.
+    LayerMotion const& found = *std::ranges::max_element(nearest, {}, agreeing);
+    return {found.mode, agreeing(found)};
+}
+
+}  // namespace vibrotrough::atlas
