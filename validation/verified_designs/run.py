@@ -97,7 +97,7 @@ def judge(run: ValidationCase) -> None:
 
 def judge_engineer(run: ValidationCase) -> None:
     """The machine that is proposed today is the one that was simulated, and it does what was promised."""
-    (row,) = run.table("engineer.csv")
+    (row,) = run.reference("engineer.csv")
     found = design(run, ENGINEER, ENGINEERS_FLOW)
     layer = tomllib.loads((FOLDER / "engineer.toml").read_text(encoding="utf-8"))["layer"]
     simulated = [float(row["stroke_mm"]), float(row["turns_per_minute"]), float(row["vibration_angle_deg"]), float(layer["height"].split()[0])]
