@@ -140,10 +140,11 @@ std::vector<std::string> verdict(Calibration const& c, ModelName const& model) {
     if (c.discrepancy && c.best.degrees_of_freedom > 0 && c.best.p_value < contradicted_below) {
         std::vector<std::string> found;
         for (Estimate const& e : c.parameters) found.push_back(interval(e));
-        sentences.push_back(
-            fmt::format("If it may be wrong by {:.2g} ({:.2g} to {:.2g}) in velocity efficiency from setting "
-                        "to setting, the speeds give {}.",
-                        c.discrepancy->median, c.discrepancy->low, c.discrepancy->high, list(found)));
+        sentences.push_back(fmt::format(
+            "If it may be wrong {}by {:.2g} ({:.2g} to {:.2g}) in velocity efficiency from setting "
+            "to setting, the speeds give {}.",
+            c.holds_layer_errors ? "as at layers of spheres, and further " : "", c.discrepancy->median,
+            c.discrepancy->low, c.discrepancy->high, list(found)));
     }
     for (Estimate const& e : c.parameters) {
         if (!e.identifiable) {
