@@ -20,7 +20,10 @@ class ChiSquare {
   public:
     ChiSquare(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
               std::vector<MeasuredSpeed> const& speeds, double common_error)
-        : model_(model), parameters_(parameters), speeds_(speeds), common_error_(common_error) {}
+        : model_(model),
+          parameters_(parameters),
+          speeds_(speeds),
+          common_errors_(same_error(speeds.size(), common_error)) {}
 
     std::vector<double> values(std::vector<double> const& cube) const {
         std::vector<double> result;
@@ -32,7 +35,7 @@ class ChiSquare {
     }
 
     double operator()(std::vector<double> const& cube) const {
-        auto const misfit = joint_misfit(model_, values(cube), speeds_, 0, common_error_);
+        auto const misfit = joint_misfit(model_, values(cube), speeds_, 0, common_errors_);
         return misfit ? std::min(misfit->chi_square, impossible) : impossible;
     }
 
@@ -44,7 +47,7 @@ class ChiSquare {
     SpeedModel const& model_;
     std::vector<FreeParameter> const& parameters_;
     std::vector<MeasuredSpeed> const& speeds_;
-    double common_error_;
+    Eigen::MatrixXd common_errors_;
 };
 
 /// Points spread over the unit cube: the additive recurrence of M. Roberts' generalised golden ratio.

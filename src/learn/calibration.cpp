@@ -37,13 +37,14 @@ Estimate estimate(FreeParameter const& parameter, std::vector<double> draws, dou
 }
 
 std::vector<Misfit> misfits(SpeedModel const& model, inference::Sample const& sample, std::size_t parameters,
-                            std::vector<MeasuredSpeed> const& speeds, double common_error) {
+                            std::vector<MeasuredSpeed> const& speeds, Eigen::MatrixXd const& common_errors) {
     int const total = sample.chains * sample.draws;
     int const step = std::max(1, total / draws_for_misfits);
     std::vector<Misfit> result;
     for (MeasuredSpeed const& measured : speeds) {
         std::vector<double> answers;
         double variance = 0;
+        double const common_error = common_errors.row(static_cast<Eigen::Index>(result.size())).norm();
         for (int i = 0; i < total; i += step) {
             auto const draw = sample.draw(i / sample.draws, i % sample.draws).first(parameters);
             auto const answer = model(draw, measured);
@@ -53,13 +54,25 @@ std::vector<Misfit> misfits(SpeedModel const& model, inference::Sample const& sa
             variance += answer->sd * answer->sd + common * common;
         }
         variance /= static_cast<double>(answers.size());
-        Misfit one{measured, inference::quantile(answers, 0.5), inference::quantile(answers, 0.025),
-                   inference::quantile(answers, 0.975), 0};
+        Misfit one{measured,
+                   inference::quantile(answers, 0.5),
+                   inference::quantile(answers, 0.025),
+                   inference::quantile(answers, 0.975),
+                   0,
+                   common_error};
         one.in_uncertainties =
             (measured.speed - one.median) / std::hypot(measured.uncertainty, std::sqrt(variance));
         result.push_back(one);
     }
     return result;
+}
+
+/// Common errors beside further ones.
+Eigen::MatrixXd beside(Eigen::MatrixXd const& errors, Eigen::MatrixXd const& more) {
+    Eigen::MatrixXd all(errors.rows(), errors.cols() + more.cols());
+    all.leftCols(errors.cols()) = errors;
+    if (more.cols() > 0) all.rightCols(more.cols()) = more;
+    return all;
 }
 
 }  // namespace
@@ -102,14 +115,20 @@ Calibration calibrate(SpeedModel const& model, std::vector<FreeParameter> const&
     for (FreeParameter const& p : parameters) bounds.push_back(p.prior);
     // The chains walk in log(delta), whose prior is uniform.
     if (estimated) bounds.push_back({std::log(discrepancy_prior.low), std::log(discrepancy_prior.high)});
+    Eigen::MatrixXd const common =
+        beside(same_error(speeds.size(), settings.common_error), settings.layer_errors);
     auto const density = [&](std::span<double const> point) {
-        auto const misfit = joint_misfit(model, point.first(count), speeds,
-                                         estimated ? std::exp(point.back()) : 0, settings.common_error);
+        auto const misfit =
+            joint_misfit(model, point.first(count), speeds, estimated ? std::exp(point.back()) : 0, common);
         return misfit ? -0.5 * (misfit->chi_square + misfit->log_determinant) : impossible;
     };
     inference::Sample const sample = inference::sample(density, bounds, settings.sampler);
-    Calibration result{
-        {}, {}, misfits(model, sample, count, speeds, settings.common_error), best, sample.converged};
+    Calibration result{{},
+                       {},
+                       misfits(model, sample, count, speeds, common),
+                       best,
+                       sample.converged,
+                       settings.layer_errors.cols() > 0};
     for (std::size_t p = 0; p < count; ++p)
         result.parameters.push_back(
             estimate(parameters[p], sample.of(static_cast<int>(p)), sample.rhat[p], sample.ess[p]));

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Dense>
+
 namespace vibrotrough::learn {
 
 /// A quantity that is to be found, and what is known of it before: any value between two bounds, each as
@@ -46,6 +48,10 @@ struct CalibrationSettings {
     /// Standard deviation, in velocity efficiency, of an error of the model that has the same size and sign
     /// in all measurements, >= 0.
     double common_error = 0;
+    /// Errors of the model that all measurements have in common, which its best fit does not know: a row for
+    /// each measurement, and a column for each error, with its size there as one standard deviation, in
+    /// velocity efficiency. Empty without any.
+    Eigen::MatrixXd layer_errors = {};
     inference::SamplerSettings sampler = {};  ///< of the posterior
 };
 
@@ -71,6 +77,7 @@ struct Misfit {
     double median;            ///< m/s, of the model (without discrepancy) over the posterior
     double low, high;         ///< m/s, its central 95 % interval
     double in_uncertainties;  ///< (measured - median) / uncertainty of measurement and model
+    double common_error;  ///< standard deviation, in velocity efficiency, by the settings of the calibration
 };
 
 /// How well the model can fit at best when it is taken to be exact.
@@ -88,19 +95,20 @@ struct Calibration {
     std::vector<Misfit> misfits;          ///< in the order of the measurements
     BestFit best;                         ///< of the model without discrepancy
     bool converged;                       ///< whether the chains did
+    bool holds_layer_errors = false;      ///< whether CalibrationSettings::layer_errors were given
 };
 
 /// Finds the free parameters of a model from measured speeds.
 ///
 /// Likelihood of the measurements: normal, around the model's speeds, with the covariance
-///     diag(uncertainty^2 + sd^2 + (delta omega r cos(beta))^2) + c c^T,
-///     c_i^2 = common_sd_i^2 + (common_error omega_i r_i cos(beta_i))^2
+///     diag(uncertainty^2 + sd^2 + (delta omega r cos(beta))^2) + sum_k c_k c_k^T
 /// of measurement, model (the surface of a learnt layer) and model discrepancy, and of what the model misses
-/// in all measurements alike. delta, in velocity
-/// efficiency, is the same for all measurements and is estimated; its prior is uniform in log(delta) between
-/// the ends of `discrepancy_prior`, which prefers no size, so that data which the model explains make it
-/// vanish. (After M.C. Kennedy and A. O'Hagan, J. R. Stat. Soc. B 63 (2001) 425-464, with errors that are
-/// independent from setting to setting.) Where the model has no steady speed, the likelihood is zero.
+/// in all measurements alike: the c_k are common_sd and, times omega r cos(beta), common_error and each
+/// column of layer_errors. delta, in velocity efficiency, is the same for all measurements and is estimated;
+/// its prior is uniform in log(delta) between the ends of `discrepancy_prior`, which prefers no size, so that
+/// data which the model explains make it vanish. (After M.C. Kennedy and A. O'Hagan, J. R. Stat. Soc. B 63
+/// (2001) 425-464, with errors that are independent from setting to setting.) Where the model has no steady
+/// speed, the likelihood is zero.
 ///
 /// @throws core::InputError when the model has no steady speed for any value within the prior
 Calibration calibrate(SpeedModel const& model, std::vector<FreeParameter> const& parameters,

@@ -101,10 +101,18 @@ std::string note_of(Estimate const& e) {
     return list(ranges);
 }
 
-/// What simulated layers say of the error of the point mass where the speeds were measured; nothing when a
-/// speed has no vibration angle or no layer tells it.
+/// What layers say of the error of the point mass where the speeds were measured; nothing when a speed has no
+/// vibration angle or no layer tells it.
 std::optional<std::string> known_misses(Calibration const& c) {
     double least = 1, most = 0;
+    if (c.holds_layer_errors) {
+        auto const [low, high] = std::ranges::minmax(c.misfits, {}, &Misfit::common_error);
+        return fmt::format(
+            "The intervals hold that the point mass misses layers of spheres at these settings by {:.2g} to "
+            "{:.2g} (root mean square in velocity efficiency, by the atlas); where it is exact, as for a "
+            "block, write --common-error 0.",
+            low.common_error, high.common_error);
+    }
     for (Misfit const& m : c.misfits) {
         if (!m.measured.vibration_angle) return {};
         double const alpha = m.measured.inclination.value_or(0);
@@ -132,10 +140,11 @@ std::vector<std::string> verdict(Calibration const& c, ModelName const& model) {
     if (c.discrepancy && c.best.degrees_of_freedom > 0 && c.best.p_value < contradicted_below) {
         std::vector<std::string> found;
         for (Estimate const& e : c.parameters) found.push_back(interval(e));
-        sentences.push_back(
-            fmt::format("If it may be wrong by {:.2g} ({:.2g} to {:.2g}) in velocity efficiency from setting "
-                        "to setting, the speeds give {}.",
-                        c.discrepancy->median, c.discrepancy->low, c.discrepancy->high, list(found)));
+        sentences.push_back(fmt::format(
+            "If it may be wrong {}by {:.2g} ({:.2g} to {:.2g}) in velocity efficiency from setting "
+            "to setting, the speeds give {}.",
+            c.holds_layer_errors ? "as at layers of spheres, and further " : "", c.discrepancy->median,
+            c.discrepancy->low, c.discrepancy->high, list(found)));
     }
     for (Estimate const& e : c.parameters) {
         if (!e.identifiable) {
@@ -195,6 +204,7 @@ nlohmann::ordered_json calibration_json(Calibration const& c, ModelName const& m
                                         {"model_m_per_s", m.median},
                                         {"model_low_m_per_s", m.low},
                                         {"model_high_m_per_s", m.high},
+                                        {"common_error", m.common_error},
                                         {"misfit", m.in_uncertainties}});
     }
     json["best_fit"] = {{"values", c.best.values},

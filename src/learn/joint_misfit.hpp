@@ -16,12 +16,16 @@ struct JointMisfit {
 };
 
 /// The misfit of all speeds together; nothing where the model has no steady speed. The covariance is
-/// diag(d) + c c^T, see calibrate(), so that (Sherman and Morrison)
-///     m^T C^-1 m = sum m_i^2 / d_i - (sum c_i m_i / d_i)^2 / (1 + sum c_i^2 / d_i),
-///     det C = prod d_i (1 + sum c_i^2 / d_i).
-/// @param discrepancy, common_error  of the model, in velocity efficiency
+/// D + U U^T with diagonal D and the common errors as the columns of U, see calibrate(), so that (Woodbury)
+///     m^T C^-1 m = m^T D^-1 m - b^T A^-1 b with A = 1 + U^T D^-1 U and b = U^T D^-1 m,
+///     det C = det D det A.
+/// @param discrepancy    of the model, in velocity efficiency
+/// @param common_errors  likewise: a row for each speed, and a column for each error
 std::optional<JointMisfit> joint_misfit(SpeedModel const& model, std::span<double const> values,
                                         std::vector<MeasuredSpeed> const& speeds, double discrepancy,
-                                        double common_error);
+                                        Eigen::MatrixXd const& common_errors);
+
+/// An error of the same size in all measurements, in velocity efficiency, as a column; none for 0.
+Eigen::MatrixXd same_error(std::size_t measurements, double size);
 
 }  // namespace vibrotrough::learn

@@ -1,10 +1,23 @@
 #include "learn/notes.hpp"
 
+#include <cmath>
+
 namespace vibrotrough::learn {
 namespace {
 
 namespace note = core::note;
 using note::Json;
+
+/// Root mean square over the measurements of what the model misses in all of them together; 0 in files of
+/// version 0.2.0 and before, which do not have it.
+double common_error_of(Json const& calibration) {
+    if (!calibration.contains("measurements")) return 0;
+    double squares = 0;
+    auto const& measurements = note::list(calibration, "measurements");
+    for (Json const& one : measurements)
+        if (one.contains("common_error")) squares += std::pow(note::number(one, "common_error", 0), 2);
+    return measurements.empty() ? 0 : std::sqrt(squares / static_cast<double>(measurements.size()));
+}
 
 CalibratedFriction friction_of(Json const& calibration, Json const& parameter) {
     std::string const model = note::line_if_any(calibration, "model");
@@ -24,6 +37,8 @@ CalibratedFriction friction_of(Json const& calibration, Json const& parameter) {
     if (!calibration.at("model_discrepancy").is_null()) {
         Json const& discrepancy = note::object(calibration, "model_discrepancy");
         known.discrepancies = note::numbers(draws, note::text(discrepancy, "name"));
+        double const common = common_error_of(calibration);
+        for (double& one : known.discrepancies) one = std::hypot(one, common);
     }
     return known;
 }

@@ -20,7 +20,8 @@ struct CalibratedFriction {
     std::string model;                       ///< that was calibrated
     double median, low, high;                ///< the central 95 % interval; 0 where there are draws
     std::vector<double> draws;               ///< of the posterior; empty when only the interval is known
-    std::vector<double> discrepancies = {};  ///< one for each draw; empty without a model discrepancy
+    std::vector<double> discrepancies = {};  ///< one for each draw, with what the
+                                             ///< model misses in common; may be empty
 };
 
 /// The file of `theory calibrate --posterior`, or what it prints with --json.

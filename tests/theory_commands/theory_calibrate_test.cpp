@@ -51,6 +51,14 @@ TEST_F(TheoryCalibrate, SaysInWordsWhatItFound) {
     Answer const answer = run_program("theory calibrate '" + write(krakow) + "' --free friction");
     EXPECT_EQ(answer.exit_code, 0);
     EXPECT_THAT(answer.text, testing::HasSubstr("No friction explains these 3 speeds by the point mass"));
+    EXPECT_THAT(answer.text, testing::HasSubstr("wrong as at layers of spheres, and further by 0."));
+    EXPECT_THAT(answer.text, testing::HasSubstr("hold that the point mass misses layers of spheres"));
+    for (char const* const alone : {" --common-error 0", " --common-error 0.05", " --without-discrepancy"}) {
+        Answer const without =
+            run_program("theory calibrate '" + write(krakow) + "' --free friction" + alone);
+        EXPECT_EQ(without.exit_code, 0) << without.text;
+        EXPECT_THAT(without.text, testing::Not(testing::HasSubstr("layers of spheres"))) << alone;
+    }
 }
 
 TEST_F(TheoryCalibrate, CornerPlot) {

@@ -132,6 +132,45 @@ TEST(Design, AnswersInTheUnitThatWasTyped) {
     refused("--frequency '960 Hz'", "a frequency of 49.8 Hz or less");
 }
 
+// Motors are speeds of the drive: n = 120 f / p (1 - slip) turns per minute. Tolerance: none, the products
+// are whole numbers and the answers have four digits.
+TEST(Design, ChoosesAmongMotors) {
+    auto const design = [](std::string const& motors) {
+        return run_program(
+            "design --mass-flow '3 t/h' --bulk-density '600 kg/m3' --width '300 mm' --friction 0.3 "
+            "--vibration-angle '30 deg' --machine-number 4 --objective least-machine-number " +
+            motors);
+    };
+    std::pair<char const*, char const*> const same[] = {
+        {"--poles 4,6,8 --mains 50", "--rpm 1500,1000,750"},
+        {"--poles 4,6 --mains '60 Hz' --slip '4 %'", "--rpm 1728,1152"},
+        {"--poles 8 --mains 50 --slip 0.04", "--rpm 720"}};
+    for (auto const& [motors, speeds] : same) {
+        Answer const answer = design(motors);
+        EXPECT_EQ(answer.exit_code, 0) << answer.text;
+        EXPECT_EQ(answer.text, design(speeds).text) << motors;
+    }
+    std::pair<char const*, char const*> const refused[] = {
+        {"--poles 4,6,8", "--poles 4,6,8: also needs the frequency of the mains; write --mains 50"},
+        {"--mains 50", "--mains 50: belongs to the poles of a motor; write --poles 4,6,8 as well"},
+        {"--slip 0.03 --rpm 960", "--slip 0.03: belongs to the poles of a motor"},
+        {"--poles 4 --mains 50 --rpm 960", "--poles 4 and --rpm 960 are both given"},
+        {"--poles 4 --mains 50 --frequency '16 Hz'", "--poles 4 and --frequency 16 Hz are both given"},
+        {"--poles 4,5 --mains 50", "--poles 4,5: 5 must be even, because poles come in pairs; write"},
+        {"--poles 960 --mains 50", "--poles 960: must be at least 2 and at most 48"},
+        {"--poles '4 to 8' --mains 50", "is a range, and here one value is needed"},
+        {"--poles 4,,8 --mains 50", "write for example --poles 4,6,8"},
+        {"--poles '' --mains 50", "--poles is empty; write for example --poles 4,6,8"},
+        {"--poles 4 --mains '50 V'", "--mains 50 V: 'V' cannot be converted to Hz"},
+        {"--poles 4 --mains 0", "--mains 0: must be at least 1 and at most 400"},
+        {"--poles 4 --mains 50 --slip 3", "--slip 3: must be at least 0 and at most 0.3"}};
+    for (auto const& [motors, words] : refused) {
+        Answer const answer = design(motors);
+        EXPECT_EQ(answer.exit_code, 2) << motors << "\n" << answer.text;
+        EXPECT_NE(answer.text.find(words), std::string::npos) << motors << "\n" << answer.text;
+    }
+}
+
 // One friction is not a range, and flows have no powers of ten.
 TEST(Design, WritesPlainNumbers) {
     Answer const large = run_program(

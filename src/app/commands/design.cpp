@@ -197,7 +197,8 @@ until a machine's simulation agrees with what was promised of it and its mass fl
 their diameter and rolling friction are yours; the rest is assumed, as machine_N.toml in the folder says.
 
 A range is "LOW to HIGH"; a single value fixes the quantity. With several speeds or strokes of the drive
-(--rpm 960,1450,2900, --stroke "6,8,10 mm") a machine is found for each; the best by the objective is printed, and what the others gave.
+(--rpm 960,1450,2900, --poles 4,6,8 --mains 50, --stroke "6,8,10 mm") a machine is found for each; the best by the
+objective is printed, and what the others gave.
 
 Exit codes:
     0  the mass flow is reached

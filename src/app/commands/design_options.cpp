@@ -171,6 +171,13 @@ void DesignOptions::add_limits(CLI::App& command) {
         "which "
         "the best is chosen; default: \"300 to 3600\"");
     add("--frequency", drive.frequency, "The same as a frequency, for example \"5 Hz to 25 Hz\"");
+    add("--poles", drive.poles,
+        "Instead of --rpm, poles of the motors that can be had, such as 4,6,8: 120 f / poles (1 - slip) "
+        "turns "
+        "per minute");
+    add("--mains", drive.mains, "f, frequency of the mains for --poles, in Hz: 50, or 60 as in America");
+    add("--slip", drive.slip,
+        "By which part a motor of --poles is slower, such as 0.03 or \"3 %\"; default: 0");
     add("--vibration-angle", drive.vibration_angle, "Range of beta; default: \"5 deg to 60 deg\"");
     add("--inclination", drive.inclination, "Range of alpha, uphill positive; default: level");
     add("--stroke-uncertainty", stroke_uncertainty,

@@ -15,6 +15,9 @@ namespace {
 
 constexpr double lowest_frequency = 1e-3, highest_frequency = 1e4;  // Hz
 constexpr double least_amplitude = 1e-7, most_amplitude = 10;       // m
+constexpr int most_poles = 48;                                      // of asynchronous motors
+constexpr double lowest_mains = 1, highest_mains = 400;             // Hz, with a frequency converter
+constexpr double most_slip = 0.3;
 
 /// Hz, of a list such as "960,1450,2900"; empty when the text is a range, or a number with a decimal comma.
 std::vector<double> read_listed_speeds(Text const& rpm) {
@@ -28,6 +31,55 @@ std::vector<double> read_listed_speeds(Text const& rpm) {
         frequencies.push_back(read_turns("--rpm", piece));
     }
     return frequencies;
+}
+
+/// Hz, of the mains: "50" or "50 Hz".
+double read_mains(std::string const& text) {
+    bool const is_plain = text.find_first_not_of("0123456789.,+eE- ") == std::string::npos;
+    if (is_plain) return read_number_within("--mains", text, "50", lowest_mains, highest_mains);
+    return read_quantity_within("--mains", text, "Hz", "50 Hz", lowest_mains, highest_mains);
+}
+
+/// The numbers of poles of a list such as "4,6,8".
+std::vector<int> read_listed_poles(std::string const& text) {
+    constexpr char const* example = "4,6,8";
+    std::vector<int> all;
+    std::stringstream pieces(text);
+    for (std::string piece; std::getline(pieces, piece, ',');) {
+        int const poles = read_count("--poles", piece, example, 2, most_poles);
+        if (poles % 2 != 0)
+            throw core::InputError(
+                fmt::format("--poles {}: {} must be even, because poles come in pairs; write for example "
+                            "--poles {}",
+                            text, poles, example));
+        all.push_back(poles);
+    }
+    if (all.empty())
+        throw core::InputError(fmt::format("--poles is empty; write for example --poles {}", example));
+    return all;
+}
+
+/// Hz, the speeds of the shafts of motors: 2 f / p (1 - slip), which are 120 f / p turns per minute without
+/// slip; empty where no motors were given.
+std::vector<double> read_motor_speeds(DriveTexts const& o) {
+    for (auto const& [name, text] : {std::pair{"--mains", o.mains}, {"--slip", o.slip}})
+        if (text && !o.poles)
+            throw core::InputError(fmt::format(
+                "{} {}: belongs to the poles of a motor; write --poles 4,6,8 as well, or leave it out", name,
+                *text));
+    if (!o.poles) return {};
+    refuse_both("--poles", o.poles, "--rpm", o.rpm);
+    refuse_both("--poles", o.poles, "--frequency", o.frequency);
+    if (!o.mains)
+        throw core::InputError(
+            fmt::format("--poles {}: also needs the frequency of the mains; write --mains 50, or --mains 60 "
+                        "as in America",
+                        *o.poles));
+    double const mains = read_mains(*o.mains);
+    double const slip = o.slip ? read_number_within("--slip", *o.slip, "0.03", 0, most_slip) : 0;
+    std::vector<double> speeds;
+    for (int const poles : read_listed_poles(*o.poles)) speeds.push_back(2 * mains / poles * (1 - slip));
+    return speeds;
 }
 
 /// m, of a stroke or an amplitude: one that can be solved.
@@ -60,9 +112,11 @@ theory::Range ends_of(std::vector<double> const& values) {
 
 void read_frequency(DriveTexts const& o, ReadSpace& read) {
     refuse_both("--rpm", o.rpm, "--frequency", o.frequency);
-    read.frequencies = read_listed_speeds(o.rpm);
+    std::vector<double> const motors = read_motor_speeds(o);
+    read.frequencies = motors.empty() ? read_listed_speeds(o.rpm) : motors;
     if (!read.frequencies.empty()) {
         read.space.frequency = ends_of(read.frequencies);
+        if (read.frequencies.size() == 1) read.frequencies.clear();  // one speed leaves no choice
     } else if (o.rpm) {
         read.space.frequency = read_range("--rpm", *o.rpm, "300 to 1500",
                                           [](std::string const& text) { return read_turns("--rpm", text); });
@@ -127,7 +181,7 @@ void check_slope(DriveTexts const& texts, theory::DriveSpace const& space, doubl
 void tell_unusual(DriveTexts const& texts, theory::DriveSpace const& space, double friction,
                   std::optional<double> bulk_density) {
     theory::MachineNumbers numbers{};
-    if (texts.rpm || texts.frequency)
+    if (texts.rpm || texts.frequency || texts.poles)
         numbers.frequency = space.frequency.high < theory::smallest_usual_frequency ? space.frequency.high
                                                                                     : space.frequency.low;
     if (texts.stroke || texts.amplitude) numbers.amplitude = space.amplitude.low;
@@ -135,7 +189,7 @@ void tell_unusual(DriveTexts const& texts, theory::DriveSpace const& space, doub
     numbers.friction = friction;
     numbers.bulk_density = bulk_density;
     numbers.is_stroke = texts.stroke.has_value();
-    numbers.is_turns = texts.rpm.has_value();
+    numbers.is_turns = texts.rpm.has_value() || texts.poles.has_value();
     if (numbers.frequency && numbers.amplitude)
         numbers.machine_number =
             theory::Drive{space.frequency.low, space.amplitude.low, 1, 0}.machine_number(space.gravity);

@@ -10,6 +10,7 @@ namespace vibrotrough::app {
 /// The options of `design` and `theory design` that say among which drives they choose.
 struct DriveTexts {
     Text rpm, frequency, stroke, amplitude;  ///< of each pair one
+    Text poles, mains, slip;                 ///< of the motors that turn the shaft, instead of its speed
     Text vibration_angle, inclination;       ///< ranges
     Text machine_number, throw_number;       ///< largest values
 };
