@@ -14,8 +14,12 @@ double common_error_of(Json const& calibration) {
     if (!calibration.contains("measurements")) return 0;
     double squares = 0;
     auto const& measurements = note::list(calibration, "measurements");
-    for (Json const& one : measurements)
-        if (one.contains("common_error")) squares += std::pow(note::number(one, "common_error", 0), 2);
+    for (Json const& one : measurements) {
+        if (!one.contains("common_error")) continue;
+        double const common = note::number(one, "common_error", 0);
+        if (common > 1) throw note::Fault("'common_error' is above 1, the largest in velocity efficiency");
+        squares += common * common;
+    }
     return measurements.empty() ? 0 : std::sqrt(squares / static_cast<double>(measurements.size()));
 }
 

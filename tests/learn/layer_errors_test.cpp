@@ -4,6 +4,7 @@
 
 #include "atlas/tables.hpp"
 #include "atlas/value.hpp"
+#include "core/error.hpp"
 #include "learn/machine_keys.hpp"
 #include "learn/point_mass_model.hpp"
 #include "learn/posterior_file.hpp"
@@ -19,6 +20,7 @@
 #include <string>
 #include <utility>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -165,6 +167,9 @@ TEST(LayerErrors, CountInADesignWithThePosterior) {
     posterior["measurements"] = {{{"common_error", 0.01}}, {{"common_error", 0.07}}};
     EXPECT_NEAR(read_posterior(posterior.dump(), "new.json").friction.discrepancies.front(),
                 std::hypot(0.02, 0.05), 1e-12);
+    posterior["measurements"] = {{{"common_error", 1e200}}};
+    EXPECT_THAT([&] { read_posterior(posterior.dump(), "large.json"); },
+                testing::ThrowsMessage<core::InputError>(testing::HasSubstr("'common_error' is above 1")));
 }
 
 // Layers are neither exact nor off by independent errors; 90 to 99 of 100 is the central 97 % of the binomial
