@@ -1,30 +1,16 @@
 #include "atlas/layer_mode.hpp"
 
 #include "atlas/tables.hpp"
+#include "atlas/value.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace vibrotrough::atlas {
-namespace {
-
-/// The length over which the efficiency varies with each input, in its own units: the mean over the draws.
-std::vector<double> mean_lengths() {
-    auto const draws = read_draws(draws_table, "draws.csv");
-    std::vector<double> lengths;
-    for (SurfaceInput const& input : inputs()) {
-        double sum = 0;
-        for (auto const& draw : draws) sum += draw.lengths(static_cast<Eigen::Index>(lengths.size()));
-        lengths.push_back(sum / static_cast<double>(draws.size()) * (input.high - input.low));
-    }
-    return lengths;
-}
-
-}  // namespace
 
 LikelyMode mode_at(Place const& place) {
-    static std::vector<double> const lengths = mean_lengths();
+    static Place const lengths = error_lengths();
     static std::vector<LayerMotion> const layers = read_modes(layers_table, "layers.csv");
     auto const squared_distance = [&](LayerMotion const& layer) {
         double sum = 0;

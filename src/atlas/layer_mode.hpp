@@ -15,9 +15,9 @@ struct LikelyMode {
     int agreeing;      ///< of the layers_asked simulated layers that are most alike, those in this mode
 };
 
-/// The mode of most of the simulated layers that are most alike, by the distance in which each input counts
-/// by the length over which the efficiency varies with it (draws.csv). Of the 100 random layers, which are
-/// none of them, 83 moved in the mode that is said (tests/atlas).
+/// The most frequent mode among the simulated layers that are most alike: by the distance in error_lengths()
+/// (value.hpp). Of the 100 random layers within the ranges, which are none of them, 83 moved in the mode that
+/// is said (tests/atlas).
 LikelyMode mode_at(Place const& place);
 
 }  // namespace vibrotrough::atlas

@@ -106,12 +106,16 @@ std::string note_of(Estimate const& e) {
 std::optional<std::string> known_misses(Calibration const& c) {
     double least = 1, most = 0;
     if (c.holds_layer_errors) {
-        auto const [low, high] = std::ranges::minmax(c.misfits, {}, &Misfit::common_error);
+        auto const unknown = std::ranges::count(c.misfits, 0.0, &Misfit::common_error);
+        for (Misfit const& m : c.misfits) {
+            if (m.common_error > 0) least = std::min(least, m.common_error);
+            most = std::max(most, m.common_error);
+        }
         return fmt::format(
             "The intervals hold that the point mass misses layers of spheres at these settings by {:.2g} to "
-            "{:.2g} (root mean square in velocity efficiency, by the atlas); where it is exact, as for a "
+            "{:.2g} (root mean square in velocity efficiency, by the atlas{}); where it is exact, as for a "
             "block, write --common-error 0.",
-            low.common_error, high.common_error);
+            least, most, unknown > 0 ? fmt::format(", which does not know {} of them", unknown) : "");
     }
     for (Misfit const& m : c.misfits) {
         if (!m.measured.vibration_angle) return {};

@@ -90,7 +90,7 @@ ExcitedMachine excited(DesignTask const& t, RiskDesign const& d) {
 std::string damping_text(MovedMachine const& machine) {
     if (machine.damping.mean == 0) return "";
     return fmt::format(
-        "damping           {:.3g} of the material's mass times omega, of its layer (the atlas of layers)\n",
+        "damping           of the layer: {:.3g} of its mass times omega (the atlas of layers)\n",
         machine.damping.mean);
 }
 
@@ -156,7 +156,7 @@ Json exciter_json(DesignTask const& t, RiskDesign const& d) {
             {"material_kg", m.material},
             {"added_mass_fraction", t.machine->added_mass.mean},
             {"added_mass_from", source_of(t.machine->added_mass_source)},
-            {"damping", t.machine->damping.mean},
+            {"damping", t.machine->damping.mean != 0 ? Json(t.machine->damping.mean) : Json(nullptr)},
             {"stroke_empty_mm", 2e3 * m.empty},
             {"resonance_rpm", 60 * resonance_of(*t.machine, m.material)},
             {"usual_drive_power_w", m.usual_power}};

@@ -28,7 +28,7 @@ class LayerOfTheCube {
                    std::map<std::string, double> const& fixed)
         : cube_(cube), free_(free), fixed_(fixed) {}
 
-    /// Its place in a measurement.
+    /// Its place in a measurement, which may lie outside of the atlas.
     /// @param mean_amplitude  m, of all measurements, which the layer's amplitude in diameters belongs to
     atlas::Place place_at(MeasuredSpeed const& one, double mean_amplitude) const {
         atlas::Place place;
@@ -48,7 +48,7 @@ class LayerOfTheCube {
         place[atlas::friction_input] =
             value("friction", atlas::friction_input).value_or(place[atlas::friction_input]);
         place[atlas::amplitude_input] *= one.amplitude / mean_amplitude;
-        return atlas::within_ranges(place);
+        return place;
     }
 
   private:
@@ -75,8 +75,11 @@ class LayerOfTheCube {
     std::map<std::string, double> const& fixed_;
 };
 
-/// Velocity efficiency of the atlas less that of the point mass; nothing where one of them has none.
-std::optional<double> error_of_the_mass(atlas::Place const& place) {
+/// Velocity efficiency of the atlas less that of the point mass; nothing where one of them has none, and 0
+/// where the atlas knows nothing.
+std::optional<double> error_of_the_mass(atlas::Place const& given) {
+    if (atlas::is_far_outside(given)) return 0;
+    atlas::Place const place = atlas::within_ranges(given);
     auto const layer = atlas::efficiency_at(place);
     theory::Motion const mass =
         theory::solve(theory::PointMass{place[atlas::throw_number_input], place[atlas::tan_vibration_input],

@@ -14,9 +14,10 @@ namespace vibrotrough::learn {
 /// measurements have similar errors, distant ones mostly others, and no friction explains them all.
 ///
 /// The errors count with their mean, so that grains which miss the point mass by less are covered, too.
-/// Outside of the atlas' ranges, the nearest place within them stands for a measurement.
+/// Up to a quarter of a range outside of the atlas, the nearest place within it stands for a measurement;
+/// farther outside nothing is known, and no error counts.
 /// @param free      a free friction or angle may be anything within its prior and the atlas
-/// @param fixed     values of further quantities of the point mass, as for point_mass_model()
+/// @param fixed     values of friction and angles, as for point_mass_model()
 /// @param speeds    each with its vibration angle, unless that is free or fixed
 /// @returns common errors as CalibrationSettings::layer_errors
 Eigen::MatrixXd point_mass_layer_errors(std::vector<FreeParameter> const& free,

@@ -17,11 +17,12 @@ std::map<std::string, double> parse_half_widths(std::string_view text);
 
 /// What a calibration says of the friction of the material on the trough.
 struct CalibratedFriction {
-    std::string model;                       ///< that was calibrated
-    double median, low, high;                ///< the central 95 % interval; 0 where there are draws
-    std::vector<double> draws;               ///< of the posterior; empty when only the interval is known
-    std::vector<double> discrepancies = {};  ///< one for each draw, with what the
-                                             ///< model misses in common; may be empty
+    std::string model;          ///< that was calibrated
+    double median, low, high;   ///< the central 95 % interval; 0 where there are draws
+    std::vector<double> draws;  ///< of the posterior; empty when only the interval is known
+    /// One for each draw, with what the model misses in common, as if that were independent of the friction,
+    /// which is too careful for a machine like the measured one; may be empty.
+    std::vector<double> discrepancies = {};
 };
 
 /// The file of `theory calibrate --posterior`, or what it prints with --json.

@@ -30,7 +30,7 @@ TEST(LayerMode, OfRandomLayersIsMostlyRight) {
     EXPECT_GT(1.0 * right_and_sure / sure, 0.9) << right_and_sure << " of " << sure;
 }
 
-// A layer of the table that is like no other asks itself first, and a layer far below take-off is not thrown.
+// A layer far below take-off is not thrown.
 TEST(LayerMode, OfASmallThrowNumberHasNoFlight) {
     Place place;
     for (SurfaceInput const& input : inputs()) place.push_back((input.low + input.high) / 2);

@@ -82,18 +82,19 @@ def wait_until(question, what, watched=None):
     """Asks until the answer is truthy, and returns it. `watched`: a process that must not end before.
     A folder that the program renames while the question lists it is asked about again."""
     deadline = time.monotonic() + PATIENCE
+    missing = None
     while True:
         ended = watched is not None and watched.poll() is not None
         try:
             answer = question()
-        except FileNotFoundError:
-            answer = None
+        except FileNotFoundError as error:
+            answer, missing = None, error
         if answer:
             return answer
         if ended:
             raise AssertionError(f"the program ended with {watched.returncode} before {what}")
         if time.monotonic() > deadline:
-            raise AssertionError(f"waited {PATIENCE} s in vain until {what}")
+            raise AssertionError(f"waited {PATIENCE} s in vain until {what}") from missing
         time.sleep(0.02)
 
 

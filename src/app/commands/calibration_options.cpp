@@ -58,8 +58,7 @@ void CalibrationOptions::add_to(CLI::App& command) {
         "--common-error", common_error,
         "Standard deviation of an error of the model that is the same in all measurements, in velocity "
         "efficiency, for example 0.05; it looks like another friction and widens its interval; default: 0, "
-        "and "
-        "for the point mass what it misses at layers of the atlas");
+        "and in theory calibrate what the point mass misses at layers of the atlas");
     command.add_flag("--without-discrepancy", exact, "Take the model to be exact");
     command.add_option("--seed", seed, "Of the random numbers; default: 1");
     command

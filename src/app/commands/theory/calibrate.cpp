@@ -49,6 +49,17 @@ void check_fixed(std::map<std::string, double> const& fixed) {
     }
 }
 
+/// Whether it is the model that the layers of the atlas were compared with: without rebounds, and with one
+/// friction.
+bool is_plastic_mass(std::vector<learn::FreeParameter> const& free,
+                     std::map<std::string, double> const& fixed) {
+    auto const others = {"static_friction", "landing_friction", "restitution"};
+    return std::ranges::none_of(others, [&](std::string const name) {
+        return fixed.contains(name) ||
+               std::ranges::find(free, name, &learn::FreeParameter::name) != free.end();
+    });
+}
+
 int run_theory_calibrate(TheoryCalibrateArguments const& options) {
     auto const speeds = options.shared.read_speeds(options.file);
     auto const fixed = read_fixed(options.fixed);
@@ -75,7 +86,7 @@ int run_theory_calibrate(TheoryCalibrateArguments const& options) {
             "theory calibrate: asking the atlas tens of thousands of times; this takes about half a "
             "minute\n");
     learn::CalibrationSettings settings = shared.settings();
-    if (!is_atlas && !shared.common_error && !shared.exact)
+    if (!is_atlas && !shared.common_error && !shared.exact && is_plastic_mass(parameters, fixed))
         settings.layer_errors = learn::point_mass_layer_errors(parameters, fixed, speeds);
     learn::Calibration const calibration = learn::calibrate(model, parameters, speeds, settings);
     print_calibration(shared, calibration, {is_atlas ? "the atlas" : "the point mass"});
@@ -111,7 +122,7 @@ grain_friction, rolling_friction, restitution, depth (in diameters), inclination
 and of the depth is not fixed is free as well: it is the same in all measurements, so that the interval of the friction
 holds what is not known of it.
 
-The point mass misses layers, and the error of one setting is much like that of the next, so that it looks like another
+The point mass that neither rebounds nor has a static or landing friction of its own misses layers, and the error of one setting is much like that of the next, so that it looks like another
 friction. Its errors at a few hundred layers of the atlas, with these settings, are therefore part of what is expected of
 the speeds, before any further discrepancy. Where it is exact, as for a block, write --common-error 0; --common-error
 0.05 takes an error of that size instead, which is the same in all settings.

@@ -44,6 +44,8 @@ double read_mains(std::string const& text) {
 std::vector<int> read_listed_poles(std::string const& text) {
     constexpr char const* example = "4,6,8";
     std::vector<int> all;
+    if (text.ends_with(','))
+        throw core::InputError(fmt::format("--poles {}: nothing follows the last comma", text));
     std::stringstream pieces(text);
     for (std::string piece; std::getline(pieces, piece, ',');) {
         int const poles = read_count("--poles", piece, example, 2, most_poles);
