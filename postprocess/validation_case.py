@@ -129,6 +129,13 @@ class ValidationCase:
         """What `vibrotrough probe-engine` measured and expected, by the probes' names."""
         return {probe["name"]: probe for probe in json.loads(self._ask("probe-engine", "--json"))["probes"]}
 
+    def of_file(self, command: str, text: str) -> Any:
+        """What `vibrotrough COMMAND --json` says of a campaign file."""
+        with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
+            file.write(text)
+            file.flush()
+            return json.loads(self._ask(command, file.name, "--json"))
+
     def _ask(self, *words: str) -> str:
         answer = subprocess.run([self.program, *words], capture_output=True, text=True, check=False)
         if answer.returncode != 0:

@@ -4,7 +4,6 @@ import math
 import pathlib
 import subprocess
 import sys
-import tempfile
 from collections.abc import Sequence
 from typing import Any
 
@@ -84,16 +83,7 @@ def load_of(campaign: pathlib.Path, case: str) -> list[str]:
 
 def ids_of(run: ValidationCase, text: str) -> list[str]:
     """The ids of a campaign's cases, in the order of its file."""
-    return [case["case"] for case in ask(run, "plan", text)["cases"]]
-
-
-def ask(run: ValidationCase, command: str, text: str) -> Any:
-    """What `vibrotrough COMMAND --json` says of a campaign file."""
-    with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
-        file.write(text)
-        file.flush()
-        answer = subprocess.run([run.program, command, file.name, "--json"], capture_output=True, text=True, check=True)
-    return json.loads(answer.stdout)
+    return [case["case"] for case in run.of_file("plan", text)["cases"]]
 
 
 def row_of(run: ValidationCase, row: Row) -> list[object]:
@@ -142,7 +132,7 @@ def simulate(run: ValidationCase) -> None:
 
 def predict(run: ValidationCase) -> list[list[object]]:
     """Predictions of the random layers; rows of PREDICTED."""
-    answers = ask(run, "predict", campaign_at(run, design.at_random(sum(HELD_OUT.values())), PRECISE))
+    answers = run.of_file("predict", campaign_at(run, design.at_random(sum(HELD_OUT.values())), PRECISE))
     rows: list[list[object]] = []
     for row in run.table("held_out.csv"):
         answer = answers[int(row["number"])]
@@ -152,7 +142,7 @@ def predict(run: ValidationCase) -> list[list[object]]:
 
 def predict_loads(run: ValidationCase) -> list[list[object]]:
     """Predictions of what the random layers that were measured do to their trough; rows of PREDICTED_LOAD."""
-    answers = ask(run, "predict", campaign_at(run, design.at_random(sum(HELD_OUT.values())), PRECISE))
+    answers = run.of_file("predict", campaign_at(run, design.at_random(sum(HELD_OUT.values())), PRECISE))
     names = {"added_mass": "added_mass_fraction", "damping": "damping"}
     rows: list[list[object]] = []
     one: list[object]
@@ -195,7 +185,7 @@ def predict_decisions(run: ValidationCase) -> list[list[object]]:
         text += f'"{key}" = {toml_value([float(row[column]) for row in layers])}\n'
     return [
         [row["domain"], *(f"{float(row[key]):.4f}" for key in ("throw_number", "efficiency", "half_width", "theory")), f"{answer['efficiency']:.4f}", f"{answer['half_width']:.4f}"]
-        for row, answer in zip(layers, ask(run, "predict", text), strict=True)
+        for row, answer in zip(layers, run.of_file("predict", text), strict=True)
         if answer["inside"]
     ]
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+import math
 import pathlib
 import shutil
 import sys
@@ -9,6 +10,7 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
+from campaign_program import campaign_text  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 THROW_NUMBERS = [1.5, 2.0, 2.5]
@@ -18,6 +20,11 @@ SHORT = {"layer.length": "80 mm", "feed.length": "20 mm", "feed.mass_flow": "0.0
 PERIODIC = {"layer.length": "40 mm", "feed.mass_flow": None, "feed.length": None, "measure.min_cycles": None}
 COLUMNS = ["throw_number", "efficiency", "half_width", "depth_mm", "inflow_t_per_h", "outflow_t_per_h", "window_flow_t_per_h", "residence_s", "spread_s", "peclet", "outcome",
            "periodic_efficiency", "periodic_half_width", "periodic_outcome"]  # fmt: skip
+
+# So much that the layer is as deep as those of the atlas. At throw number 1.5 it would be deeper still, and cost as much as all others.
+DEEPER = {"feed.mass_flow": "0.28 t/h", "grains.youngs_modulus": None, "measure.max_packings": 4}  # such a layer is too soft with 10 MPa
+DEEPER_AT = {"trough.throw_number": THROW_NUMBERS[1:]}
+DEEPER_COLUMNS = ["throw_number", "efficiency", "half_width", "depth_mm", "outcome"]
 
 WIDTH, SIDE, TOP = 20, 6, 60  # mm, of a V that is so high at its sides, with upright walls above
 WINDOW = [0.11, 0.2]  # m, within the window where the speed is measured
@@ -46,8 +53,26 @@ def simulate_vee(run: ValidationCase) -> None:
     run.write_table("vee.csv", VEE, [[*numbers[0], f"{1e3 * level:.3f}", row["outcome"], *numbers[1], box["outcome"]]])
 
 
+def simulate_deeper(run: ValidationCase) -> None:
+    rows = run.campaign("deeper", DEEPER, DEEPER_AT)
+    numbers = ["efficiency", "efficiency_whole_half_width", "window_depth_mm"]
+    run.write_table("deeper.csv", DEEPER_COLUMNS, [[row["throw_number"], *(f"{float(row[name]):.4f}" for name in numbers), row["outcome"]] for row in rows])
+
+
+def judge_deeper(run: ValidationCase) -> None:
+    """Against the atlas, which knows the depth of a fed layer from its own speed alone."""
+    answers = run.of_file("predict", campaign_text(run.sections(), DEEPER, DEEPER_AT))
+    for row, answer in zip(run.table("deeper.csv"), answers, strict=True):
+        at = f"at throw number {row['throw_number']}"
+        both = math.hypot(float(row["half_width"]), answer["half_width"])
+        run.check(f"efficiency of the layer that is fed deeper less that of the atlas {at}", float(row["efficiency"]) - answer["efficiency"], 0, both, because="both intervals, in squares")
+        depth, half_width = 1e3 * answer["fed_depth_m"], 1e3 * answer["fed_depth_half_width_m"]
+        run.check(f"its depth less that of the atlas {at}, mm", float(row["depth_mm"]) - depth, 0, half_width, because="the interval of the atlas")
+
+
 def simulate(run: ValidationCase) -> None:
     simulate_vee(run)
+    simulate_deeper(run)
     rows = []
     for row in run.campaign("open", {}, {"trough.throw_number": THROW_NUMBERS}):
         throw_number = float(row["throw_number"])
@@ -79,6 +104,7 @@ def judge(run: ValidationCase) -> None:
     (row,) = run.table("vee.csv")
     run.check("efficiency of the open V less that of the periodic one", float(row["efficiency"]) - float(row["periodic_efficiency"]), 0, float(row["half_width"]) + float(row["periodic_half_width"]),
               because="both intervals hold statistics and numerics")  # fmt: skip
+    judge_deeper(run)
 
 
 def main() -> None:
