@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -106,9 +107,11 @@ std::string note_of(Estimate const& e) {
 std::optional<std::string> known_misses(Calibration const& c) {
     double least = 1, most = 0;
     if (c.holds_layer_errors) {
-        auto const unknown = std::ranges::count(c.misfits, 0.0, &Misfit::common_error);
+        // Smaller ones are those of settings that the atlas does not know, up to rounding.
+        auto const is_known = [](Misfit const& m) { return m.common_error >= discrepancy_prior.low; };
+        auto const unknown = std::ranges::count_if(c.misfits, std::not_fn(is_known));
         for (Misfit const& m : c.misfits) {
-            if (m.common_error > 0) least = std::min(least, m.common_error);
+            if (is_known(m)) least = std::min(least, m.common_error);
             most = std::max(most, m.common_error);
         }
         return fmt::format(

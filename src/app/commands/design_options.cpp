@@ -47,9 +47,8 @@ void check_exciter(DesignOptions const& o, learn::DesignTask const& task) {
         task.frequencies.empty() && task.space.frequency.low == task.space.frequency.high;
     if (task.machine->spring > 0 && !is_one_speed)
         throw core::InputError(
-            "--spring: with springs the stroke depends on the speed of the drive; write one speed or one "
-            "number "
-            "of poles, for example --rpm 960");
+            "--spring: with springs the stroke depends on the speed of the drive; write one, for example "
+            "--rpm 960, or one number of --poles");
 }
 
 /// Values of the surface's inputs that the user gave: numbers by whole key, and words.
@@ -177,9 +176,7 @@ void DesignOptions::add_limits(CLI::App& command) {
         "turns per minute");
     add("--mains", drive.mains, "f, frequency of the mains for --poles, in Hz: 50, or 60 as in America");
     add("--slip", drive.slip,
-        "Slip of these motors, the fraction by which they are slower than their field, such as 0.03 or \"3 "
-        "%\"; "
-        "default: 0");
+        "Slip of these motors, by which fraction they are slower than their field, such as 0.03; default: 0");
     add("--vibration-angle", drive.vibration_angle, "Range of beta; default: \"5 deg to 60 deg\"");
     add("--inclination", drive.inclination, "Range of alpha, uphill positive; default: level");
     add("--stroke-uncertainty", stroke_uncertainty,

@@ -122,10 +122,11 @@ grain_friction, rolling_friction, restitution, depth (in diameters), inclination
 and of the depth is not fixed is free as well: it is the same in all measurements, so that the interval of the friction
 holds what is not known of it.
 
-The point mass that neither rebounds nor has a static or landing friction of its own misses layers, and the error of one setting is much like that of the next, so that it looks like another
+The point mass misses layers, and the error of one setting is much like that of the next, so that it looks like another
 friction. Its errors at a few hundred layers of the atlas, with these settings, are therefore part of what is expected of
-the speeds, before any further discrepancy. Where it is exact, as for a block, write --common-error 0; --common-error
-0.05 takes an error of that size instead, which is the same in all settings.
+the speeds, before any further discrepancy; not so if it rebounds, or has a static or landing friction of its own. Where
+it is exact, as for a block, write --common-error 0; --common-error 0.05 takes an error of that size instead, which is
+the same in all settings.
 
 )" + std::string(calibration_help) +
         R"(
