@@ -15,7 +15,6 @@ Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> poi
                  std::vector<inference::Hyperparameters> const& draws)
     : inputs_(std::move(inputs)),
       points_(std::move(points)),
-      trend_(Trend::theory),
       process_(data(), trend_prior(), draws.empty() ? inference::Hyperparameters{} : draws.front()) {
     others_.reserve(draws.size());
     others_.push_back(process_);
@@ -53,12 +52,13 @@ Eigen::VectorXd Surface::scaled(Place const& place) const {
 }
 
 inference::TrendPrior Surface::trend_prior() const {
-    if (trend_ == Trend::theory) return {Eigen::VectorXd{{0, 1}}, Eigen::VectorXd{{1, 1}}};
+    if (prior_.trend == Trend::theory)
+        return {Eigen::VectorXd{{0, 1}}, Eigen::VectorXd{{prior_.offset_sd, prior_.slope_sd}}};
     return {Eigen::VectorXd{{0.5}}, Eigen::VectorXd{{1}}};
 }
 
 Eigen::VectorXd Surface::trend_at(double theory) const {
-    return trend_ == Trend::theory ? Eigen::VectorXd{{1, theory}} : Eigen::VectorXd{{1}};
+    return prior_.trend == Trend::theory ? Eigen::VectorXd{{1, theory}} : Eigen::VectorXd{{1}};
 }
 
 SurfaceValue Surface::at(Place const& place, double theory) const {

@@ -38,12 +38,13 @@ inline constexpr double usual_longest_length = 5;
 /// What is taken of a surface before its points are known.
 struct SurfacePrior {
     Trend trend = Trend::theory;  ///< of the process
-    /// The least standard deviation of the values about the trend, in velocity efficiency. A trend that errs
-    /// by more than few points can show needs one.
-    double least_deviation = 0.005;
     /// The longest length over which a surface varies, in widths of each input's range; empty:
     /// usual_longest_length for each.
     std::vector<double> longest = {};
+    /// What is known of the values about the trend, in velocity efficiency and widths of the ranges.
+    inference::HyperparameterPrior about_trend = {};
+    double offset_sd = 1;  ///< standard deviation of beta_0 about 0 (Surface)
+    double slope_sd = 1;   ///< standard deviation of beta_1 about 1
 };
 
 /// Standard deviations of a normal distribution in the half-width of its central 95 %.
@@ -70,13 +71,13 @@ struct SurfaceQuality {
 };
 
 /// The velocity efficiency of a layer over the inputs of a campaign, and how sure it is: a Gaussian process
-/// (inference/gaussian_process.hpp) with the trend beta_0 + beta_1 theory, beta_0 ~ N(0, 1), beta_1 ~ N(1,
-/// 1), and the noise of every point from its own interval.
+/// (inference/gaussian_process.hpp) with the trend beta_0 + beta_1 theory, beta_0 ~ N(0, offset_sd^2), beta_1
+/// ~ N(1, slope_sd^2), and the noise of every point from its own interval.
 ///
 /// Few points do not tell the hyperparameters well, and those of the largest likelihood give intervals that
 /// are too narrow. What the surface says of a place is therefore the mean and the variance over 24 draws from
-/// the posterior of the hyperparameters (equally likely in their logarithm within wide bounds). The process
-/// of the largest likelihood decides about extra noise and what to simulate next.
+/// the posterior of the hyperparameters (equally likely in their logarithm within wide bounds, unless more is
+/// known). The process of the largest likelihood decides about extra noise and what to simulate next.
 ///
 /// If the points scatter by more than their intervals say (likelihood ratio test, p < 0.01), extra noise is
 /// estimated and kept, so that the surface does not pretend to be sure.
@@ -120,6 +121,7 @@ class Surface {
 
     std::vector<SurfaceInput> const& inputs() const { return inputs_; }     ///< of the surface
     std::vector<SurfacePoint> const& points() const { return points_; }     ///< on which it rests
+    SurfacePrior const& prior() const { return prior_; }                    ///< with which it was fitted
     inference::GaussianProcess const& process() const { return process_; }  ///< of the largest likelihood
     /// The draws from the posterior of the hyperparameters, over which the surface averages.
     std::vector<inference::Hyperparameters> draws() const;
@@ -128,14 +130,14 @@ class Surface {
 
   private:
     inference::ProcessData data() const;
-    inference::GaussianProcess fit(SurfacePrior const& prior);
-    void draw_others(SurfacePrior const& prior);
+    inference::GaussianProcess fit();
+    void draw_others();
     Eigen::VectorXd trend_at(double theory) const;
     inference::TrendPrior trend_prior() const;
 
     std::vector<SurfaceInput> inputs_;
     std::vector<SurfacePoint> points_;
-    Trend trend_;
+    SurfacePrior prior_;
     double extra_noise_p_ = 0;  ///< probability of such a sign of extra noise by chance
     inference::GaussianProcess process_;
     std::vector<inference::GaussianProcess> others_;  ///< with hyperparameters drawn from their posterior

@@ -19,7 +19,7 @@ namespace {
 constexpr double significant = 0.01;
 /// Hyperparameters are equally likely in their logarithm within these bounds; lengths over the scaled inputs.
 constexpr inference::Bounds extra_noise_prior{1e-3, 1};
-constexpr double largest_deviation = 1;
+constexpr inference::Bounds deviation_prior{0.005, 1};
 constexpr double shortest_length = 0.05;
 /// Every 25th draw of the posterior is used: 24 of four chains.
 constexpr int thinning = 25;
@@ -64,11 +64,11 @@ std::vector<std::vector<double>> starts_about(inference::Hyperparameters const& 
 
 Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points,
                  SurfacePrior const& prior)
-    : inputs_(std::move(inputs)), points_(std::move(points)), trend_(prior.trend), process_(fit(prior)) {
-    draw_others(prior);
+    : inputs_(std::move(inputs)), points_(std::move(points)), prior_(prior), process_(fit()) {
+    draw_others();
 }
 
-inference::GaussianProcess Surface::fit(SurfacePrior const& prior) {
+inference::GaussianProcess Surface::fit() {
     auto const n = static_cast<Eigen::Index>(points_.size());
     auto const d = static_cast<Eigen::Index>(inputs_.size());
     if (n < std::max<Eigen::Index>(4, 2 * d)) {
@@ -79,9 +79,8 @@ inference::GaussianProcess Surface::fit(SurfacePrior const& prior) {
     }
     inference::ProcessData const known = data();
     inference::ProcessSettings settings;
-    if (prior.least_deviation > SurfacePrior{}.least_deviation)
-        settings.least.deviation = prior.least_deviation;
-    if (!prior.longest.empty()) settings.most.lengths = longest_lengths(prior, d);
+    settings.prior = prior_.about_trend;
+    if (!prior_.longest.empty()) settings.most.lengths = longest_lengths(prior_, d);
     auto process = inference::GaussianProcess::fitted(known, trend_prior(), settings);
     settings.has_extra_noise = true;
     auto const noisy = inference::GaussianProcess::fitted(known, trend_prior(), settings);
@@ -94,7 +93,7 @@ inference::GaussianProcess Surface::fit(SurfacePrior const& prior) {
     return process;
 }
 
-void Surface::draw_others(SurfacePrior const& prior) {
+void Surface::draw_others() {
     Eigen::Index const d = process_.data().inputs.cols();
     bool const is_noisy = process_.hyperparameters().extra_noise > 0;
     auto const from_logs = [&](std::span<double const> logs) {
@@ -105,14 +104,16 @@ void Surface::draw_others(SurfacePrior const& prior) {
     };
     auto const density = [&](std::span<double const> logs) {
         try {
-            return inference::GaussianProcess(process_.data(), trend_prior(), from_logs(logs))
-                .log_likelihood();
+            auto const hyperparameters = from_logs(logs);
+            return inference::GaussianProcess(process_.data(), trend_prior(), hyperparameters)
+                       .log_likelihood() +
+                   prior_.about_trend.log_density(hyperparameters);
         } catch (std::invalid_argument const&) {
             return -std::numeric_limits<double>::infinity();  // numerically singular
         }
     };
-    std::vector<inference::Bounds> bounds{logs_of({prior.least_deviation, largest_deviation})};
-    for (double const longest : longest_lengths(prior, d))
+    std::vector<inference::Bounds> bounds{logs_of(deviation_prior)};
+    for (double const longest : longest_lengths(prior_, d))
         bounds.push_back(logs_of({shortest_length, longest}));
     if (is_noisy) bounds.push_back(logs_of(extra_noise_prior));
     inference::SamplerSettings const settings{.chains = chains,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -28,11 +29,30 @@ struct Hyperparameters {
     double extra_noise = 0;   ///< standard deviation of noise that `noise` does not contain, >= 0
 };
 
+/// What is known of a positive number before: its logarithm is distributed normally.
+struct LogNormal {
+    double median;  ///< > 0
+    double log_sd;  ///< standard deviation of the logarithm, > 0
+};
+
+/// What is known of hyperparameters before. Of those that are not named every logarithm is equally likely.
+struct HyperparameterPrior {
+    std::optional<LogNormal> deviation = {};  ///< of the process
+    std::vector<LogNormal> lengths = {};      ///< one per input, or empty
+
+    /// Logarithm of its density over the logarithms, but for a constant.
+    double log_density(Hyperparameters const& hyperparameters) const;
+    /// Derivatives of log_density() by the logarithms, in the order of
+    /// GaussianProcess::log_likelihood_gradient().
+    Eigen::VectorXd gradient(Hyperparameters const& hyperparameters) const;
+};
+
 /// How hyperparameters are found.
 struct ProcessSettings {
     Hyperparameters least{1e-3, {}, 1e-4};  ///< lower bounds; empty lengths: 0.05 each
     Hyperparameters most{3, {}, 1};         ///< upper bounds; empty lengths: 20 each
     bool has_extra_noise = false;           ///< whether extra noise is estimated as well
+    HyperparameterPrior prior;              ///< its density counts beside the likelihood
     int starts = 10;                        ///< points from which the likelihood is climbed
     std::uint64_t seed = 1;                 ///< of these points
 };
@@ -62,8 +82,9 @@ class GaussianProcess {
     /// range, or the data contradict each other (two values without noise at one place)
     GaussianProcess(ProcessData data, TrendPrior prior, Hyperparameters hyperparameters);
 
-    /// Conditions a process whose hyperparameters have the largest likelihood: NLopt's LBFGS with exact
-    /// derivatives climbs from several points, in the logarithms of the hyperparameters.
+    /// Conditions a process whose hyperparameters have the largest likelihood, times the density of what is
+    /// known of them: NLopt's LBFGS with exact derivatives climbs from several points, in the logarithms of
+    /// the hyperparameters.
     /// @throws std::invalid_argument as the constructor, and when bounds have no sense
     static GaussianProcess fitted(ProcessData data, TrendPrior prior, ProcessSettings const& settings);
 

@@ -27,10 +27,16 @@ std::vector<double> logs_of(Hyperparameters const& h, double length, Eigen::Inde
     return logs;
 }
 
-/// The likelihood as NLopt asks for it.
+/// How far a number lies from its median, in standard deviations of its logarithm.
+double deviations_of(LogNormal const& known, double value) {
+    return std::log(value / known.median) / known.log_sd;
+}
+
+/// The likelihood, with what is known of the hyperparameters, as NLopt asks for it.
 struct Likelihood {
     ProcessData const& data;
     TrendPrior const& prior;
+    HyperparameterPrior const& known;
     bool has_extra_noise;
 
     static double value(std::vector<double> const& logs, std::vector<double>& gradient, void* self) {
@@ -39,11 +45,12 @@ struct Likelihood {
             GaussianProcess const process(me.data, me.prior,
                                           from_logs(logs, me.data.inputs.cols(), me.has_extra_noise));
             if (!gradient.empty()) {
-                Eigen::VectorXd const g = process.log_likelihood_gradient();
+                Eigen::VectorXd const g =
+                    process.log_likelihood_gradient() + me.known.gradient(process.hyperparameters());
                 for (std::size_t k = 0; k < gradient.size(); ++k)
                     gradient[k] = g(static_cast<Eigen::Index>(k));
             }
-            return process.log_likelihood();
+            return process.log_likelihood() + me.known.log_density(process.hyperparameters());
         } catch (std::invalid_argument const&) {  // numerically singular here
             for (double& g : gradient) g = 0;
             return -1e10;
@@ -53,12 +60,29 @@ struct Likelihood {
 
 }  // namespace
 
+double HyperparameterPrior::log_density(Hyperparameters const& hyperparameters) const {
+    double sum = deviation ? std::pow(deviations_of(*deviation, hyperparameters.deviation), 2) : 0;
+    for (std::size_t j = 0; j < lengths.size(); ++j)
+        sum += std::pow(deviations_of(lengths[j], hyperparameters.lengths(static_cast<Eigen::Index>(j))), 2);
+    return -sum / 2;
+}
+
+Eigen::VectorXd HyperparameterPrior::gradient(Hyperparameters const& hyperparameters) const {
+    Eigen::VectorXd slopes = Eigen::VectorXd::Zero(hyperparameters.lengths.size() + 2);
+    if (deviation) slopes(0) = -deviations_of(*deviation, hyperparameters.deviation) / deviation->log_sd;
+    for (std::size_t j = 0; j < lengths.size(); ++j) {
+        auto const at = static_cast<Eigen::Index>(j);
+        slopes(1 + at) = -deviations_of(lengths[j], hyperparameters.lengths(at)) / lengths[j].log_sd;
+    }
+    return slopes;
+}
+
 GaussianProcess GaussianProcess::fitted(ProcessData data, TrendPrior prior, ProcessSettings const& settings) {
     check(data, prior);
     Eigen::Index const inputs = data.inputs.cols();
     std::vector<double> const low = logs_of(settings.least, 0.05, inputs, settings.has_extra_noise);
     std::vector<double> const high = logs_of(settings.most, 20, inputs, settings.has_extra_noise);
-    Likelihood likelihood{data, prior, settings.has_extra_noise};
+    Likelihood likelihood{data, prior, settings.prior, settings.has_extra_noise};
     std::mt19937_64 random(settings.seed);
     double best = -std::numeric_limits<double>::infinity();
     std::vector<double> at;

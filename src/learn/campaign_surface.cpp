@@ -112,6 +112,24 @@ CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker c
     return found;
 }
 
+atlas::Surface surface_of(CampaignPoints const& points) {
+    constexpr double too_large = 1.4;
+    atlas::Surface surface(points.inputs, points.points, points.prior);
+    auto const& known = points.prior.about_trend.deviation;
+    bool const contradicts =
+        known && surface.process().hyperparameters().deviation > too_large * known->median;
+    if (!contradicts) return surface;
+    atlas::SurfacePrior careful;
+    for (inference::LogNormal const& length : points.prior.about_trend.lengths)
+        careful.longest.push_back(length.median);
+    return {points.inputs, points.points, careful};
+}
+
+int least_points(atlas::Surface const& surface) {
+    int const of_input = surface.prior().about_trend.deviation ? 5 : 10;
+    return of_input * static_cast<int>(surface.inputs().size());
+}
+
 CaseKeptApart const* nearest_kept_apart(CampaignPoints const& points, atlas::Place const& place) {
     double nearest = std::numeric_limits<double>::infinity();
     for (atlas::SurfacePoint const& point : points.points)

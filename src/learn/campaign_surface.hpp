@@ -39,6 +39,17 @@ struct CampaignPoints {
 CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker const& maker,
                                std::map<std::string, scenario::Content> const& words = {});
 
+/// The surface over the points. Where they differ from the atlas by more than 1.4 times what layers do, what
+/// is known of that difference does not hold for them: its size is learnt, and that it varies over no longer
+/// lengths than those of the atlas is all that is taken. (With twice, surfaces of such layers held fewer.)
+/// @throws core::InputError as Surface
+atlas::Surface surface_of(CampaignPoints const& points);
+
+/// Points below which a surface is not trusted, however sure of itself it is. Ten for each input where little
+/// is known of the function (J.L. Loeppky, J. Sacks and W.J. Welch, Technometrics 51 (2009) 366-376); five
+/// where the difference from the atlas is (validation/decisions).
+int least_points(atlas::Surface const& surface);
+
 /// The case kept apart that lies nearer to a place than every point of the surface; nullptr when there is
 /// none. Distances are in the scaled inputs.
 CaseKeptApart const* nearest_kept_apart(CampaignPoints const& points, atlas::Place const& place);

@@ -9,11 +9,13 @@
 namespace vibrotrough::learn {
 namespace {
 
-/// By how much layers differ from the atlas, at least; ten points alone cannot show that it is less. It lies
-/// below the 0.03 of layers that the atlas had not seen, so that points can show that these differ less.
-constexpr double least_difference_from_atlas = 0.02;
-/// The shortest of the longest lengths of a surface, in widths of its ranges.
-constexpr double shortest_bound = 0.1;
+/// By how much layers differ from the atlas, which few points cannot show: layers that it had not seen do by
+/// 0.03 (validation/atlas), of which a part is common to a domain. Two thirds of layers lie within a factor
+/// of e^0.5.
+constexpr inference::LogNormal difference_from_atlas{0.03, 0.5};
+constexpr double common_difference = 0.05, difference_of_slope = 0.2;
+/// How well the lengths are known over which that varies, and the shortest of them, in widths of the ranges.
+constexpr double sd_of_lengths = 0.5, shortest_length = 0.1;
 /// How far from their ends ranges are looked at, over their width: a value at an end may be none of a key.
 constexpr double margin = 0.01;
 /// Inputs of a surface whose corners are looked at.
@@ -85,8 +87,11 @@ std::optional<double> CampaignTrend::efficiency_at(atlas::Place const& place) co
 atlas::SurfacePrior CampaignTrend::prior() const {
     atlas::SurfacePrior prior;
     if (!is_atlas_) return prior;
-    prior.least_deviation = least_difference_from_atlas;
-    prior.longest.assign(inputs_.size(), atlas::usual_longest_length);
+    prior.offset_sd = common_difference;
+    prior.slope_sd = difference_of_slope;
+    prior.about_trend.deviation = difference_from_atlas;
+    auto& known = prior.about_trend.lengths;
+    known.assign(inputs_.size(), {atlas::usual_longest_length, sd_of_lengths});
     atlas::Place const lengths = atlas::error_lengths();
     atlas::Place middle;
     for (atlas::SurfaceInput const& input : inputs_) middle.push_back(within(input, 0.5));
@@ -102,7 +107,7 @@ atlas::SurfacePrior CampaignTrend::prior() const {
             // So many lengths of the atlas wide is the range.
             double const lengths_wide = std::sqrt(squares) / (1 - 2 * margin);
             if (squares > 0)
-                prior.longest[k] = std::clamp(1 / lengths_wide, shortest_bound, atlas::usual_longest_length);
+                known[k].median = std::clamp(1 / lengths_wide, shortest_length, atlas::usual_longest_length);
         } catch (core::InputError const&) {  // values that do not go together: the usual length stays
         }
     }

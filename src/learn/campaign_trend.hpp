@@ -31,15 +31,9 @@ class CampaignTrend {
     /// Whether the trend is the atlas.
     bool is_atlas() const { return is_atlas_; }
     /// What is taken of the surface before its points are known. Of the difference from the atlas more is
-    /// known than of that from the theory: layers that the atlas had not seen differ from it by 0.03
-    /// (validation/atlas), and over no longer lengths than those of the atlas' own process.
+    /// known than of that from the theory: its size, and that it varies over lengths like those of the atlas'
+    /// own process.
     atlas::SurfacePrior prior() const;
-    /// Points below which a surface is not trusted, however sure of itself it is. Ten for each input where
-    /// little is known of the function (J.L. Loeppky, J. Sacks and W.J. Welch, Technometrics 51 (2009)
-    /// 366-376); five with the prior of the atlas: surfaces of 10 to 20 points over two inputs held 349 of
-    /// 360 further simulations (validation/decisions).
-    int least_points() const { return (is_atlas_ ? 5 : 10) * static_cast<int>(inputs_.size()); }
-
     std::vector<atlas::SurfaceInput> const& inputs() const { return inputs_; }  ///< of the surface
 
   private:

@@ -133,10 +133,10 @@ LearnStatus Learner::look() {
         double& sum = core_times_[planned.id];
         for (auto const& packing : summary->record.packings) sum += packing.core_time;
     }
-    surface_.emplace(points_.inputs, points_.points, points_.prior);
+    surface_.emplace(surface_of(points_));
     LearnStatus status{static_cast<int>(points_.points.size()),
                        static_cast<int>(points_.apart.size()),
-                       trend_.least_points(),
+                       least_points(*surface_),
                        certainty(*surface_),
                        surface_->quality(),
                        surface_->doubts(),

@@ -30,7 +30,7 @@ struct DomainCertainty {
 struct LearnStatus {
     int cases;                        ///< of the campaign that are points of the surface
     int apart;                        ///< that are kept apart
-    int least_points;                 ///< CampaignTrend::least_points()
+    int least_points;                 ///< least_points() in campaign_surface.hpp
     DomainCertainty certainty;        ///< of the domain
     atlas::SurfaceQuality quality;    ///< of the surface
     std::vector<std::string> doubts;  ///< see Surface::doubts()

@@ -50,9 +50,10 @@ TEST(CampaignTrend, OfAnotherKindIsTheTheory) {
     for (std::string const& text : {campaign_of_another_kind, cubes}) {
         CampaignTrend const trend = trend_of(text);
         EXPECT_FALSE(trend.is_atlas());
-        EXPECT_EQ(trend.prior().least_deviation, atlas::SurfacePrior{}.least_deviation);
-        EXPECT_TRUE(trend.prior().longest.empty());
-        EXPECT_EQ(trend.least_points(), 20);
+        EXPECT_FALSE(trend.prior().about_trend.deviation);
+        EXPECT_TRUE(trend.prior().about_trend.lengths.empty());
+        EXPECT_EQ(trend.prior().offset_sd, 1);
+        EXPECT_EQ(trend.prior().slope_sd, 1);
         auto const place = place_in(trend, 1.7, 0.1);
         EXPECT_EQ(*trend.efficiency_at(place), *theory_of(prepare::prepare_case(trend.scenario_at(place))));
     }
@@ -67,20 +68,20 @@ TEST(CampaignTrend, OfADomainThatChangesTheKindIsTheTheory) {
     EXPECT_FALSE(trend_of(walls).is_atlas());
 }
 
-// A surface varies over no longer lengths than the atlas' own process does, and differs from it by 0.02 at
-// least: what so few points cannot show is taken from the atlas. Its lengths there belong to the ranges of
-// the atlas.
+// The difference from the atlas has its size and the lengths of its own process: what so few points cannot
+// show is taken from the atlas. Its lengths there belong to the ranges of the atlas.
 TEST(CampaignTrend, OfTheAtlasBringsItsPrior) {
     CampaignTrend const trend = trend_of(domain_campaign);
     auto const prior = trend.prior();
-    EXPECT_EQ(trend.least_points(), 10);
-    EXPECT_EQ(prior.least_deviation, 0.02);
+    EXPECT_EQ(prior.about_trend.deviation.value().median, 0.03);
+    EXPECT_EQ(prior.offset_sd, 0.05);
+    EXPECT_EQ(prior.slope_sd, 0.2);
     atlas::Place const lengths = atlas::error_lengths();
     for (std::size_t k = 0; k < 2; ++k) {
         auto const& input = trend.inputs()[k];
         double const length = lengths[input.key == "trough.throw_number" ? atlas::throw_number_input
                                                                          : atlas::rolling_friction_input];
-        EXPECT_NEAR(prior.longest[k] * (input.high - input.low), length, 0.01 * length);
+        EXPECT_NEAR(prior.about_trend.lengths[k].median * (input.high - input.low), length, 0.01 * length);
     }
 }
 

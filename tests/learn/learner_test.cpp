@@ -24,9 +24,9 @@ class LearnedCampaign : public testing::Test, public SyntheticCampaign {
     explicit LearnedCampaign(std::string const& text = campaign_of_another_kind) : SyntheticCampaign(text) {}
 };
 
-// The start: 4 d + 2 points of a Sobol sequence within the ranges.
+// The start: 2 d + 4 points of a Sobol sequence within the ranges.
 TEST_F(LearnedCampaign, BeginsWithPointsThatFillTheDomain) {
-    EXPECT_EQ(plan.cases.size(), 10U);
+    EXPECT_EQ(plan.cases.size(), 8U);
     double low = 3, high = 1;
     for (campaign::PlannedCase const& planned : plan.cases) {
         double const gamma = *scenario::number_of(planned.scenario(), "trough.throw_number");
@@ -35,7 +35,7 @@ TEST_F(LearnedCampaign, BeginsWithPointsThatFillTheDomain) {
     }
     EXPECT_GE(low, 1);
     EXPECT_LE(high, 3);
-    EXPECT_GT(high - low, 1.4);  // ten points in one dimension leave gaps of about a tenth of the range
+    EXPECT_GT(high - low, 1.4);  // eight points in one dimension leave gaps of about a tenth of the range
 }
 
 TEST_F(LearnedCampaign, PointsAreWhatWasSimulated) {
@@ -43,7 +43,7 @@ TEST_F(LearnedCampaign, PointsAreWhatWasSimulated) {
     simulate(plan.cases[3], 0.03, core::Outcome::bistable_or_slow);
     fs::remove(plan.cases[5].result_file());
     CampaignPoints const points = campaign_points(plan, *maker);
-    EXPECT_EQ(points.points.size(), 8U);
+    EXPECT_EQ(points.points.size(), 6U);
     ASSERT_EQ(points.apart.size(), 1U);
     EXPECT_EQ(points.apart[0].case_id, plan.cases[3].id);
     EXPECT_EQ(points.missing, 1);
@@ -84,6 +84,22 @@ TEST(LearnGoal, RestsOnEnoughPoints) {
     EXPECT_FALSE(Learner::has_reached(status, {0.05, 1}));
 }
 
+// What is known of the difference from the atlas is kept while the layers bear it out. Layers that are 0.5
+// apart at one end of the domain are learnt as if less were known: their surface rests on more points.
+TEST(SurfaceOfCampaign, ForgetsThePriorThatTheLayersContradict) {
+    Layer const other = [](double gamma, double rolling, double theory) {
+        return layer_of_atlas(gamma, rolling, theory) + 0.5 * std::sin(4 * gamma);
+    };
+    for (auto const& [layer, least] : {std::pair(Layer(layer_of_atlas), 10), std::pair(Layer(other), 20)}) {
+        SyntheticCampaign campaign(domain_campaign, 4, layer);
+        campaign.simulate_all(0.03);
+        auto const surface = surface_of(campaign_points(campaign.plan, *campaign.maker));
+        EXPECT_EQ(least_points(surface), least);
+        EXPECT_EQ(surface.prior().about_trend.deviation.has_value(), least == 10);
+        EXPECT_EQ(surface.prior().longest.empty(), least == 10);
+    }
+}
+
 /// In how many of 500 places that were not simulated the truth lies within the 95 % interval of the surface:
 /// 100 each of five surfaces that were learnt from different noise.
 int held_places(std::string const& text, Layer const& layer) {
@@ -95,7 +111,7 @@ int held_places(std::string const& text, Layer const& layer) {
         LearnStatus status{};
         EXPECT_TRUE(campaign.learn_until(learner, goal, status)) << status.certainty.at_worst.half_width;
         CampaignPoints const points = campaign_points(campaign.plan, *campaign.maker);
-        atlas::Surface const surface(points.inputs, points.points, points.prior);
+        atlas::Surface const surface = surface_of(points);
         CampaignTrend const trend(*campaign.maker, points.inputs, {});
         int here = 0;
         for (auto const& row : scenario::sample_cube(scenario::SampleMethod::sobol, 100, 2, 99)) {
@@ -122,14 +138,15 @@ TEST(LearnerCoverage, IntervalsHoldTheTruthWhereNothingWasSimulated) {
     EXPECT_LE(inside, 495);
 }
 
-// The same from the atlas, over layers that are as it says and others that are not. Of the former it knows
-// the difference's size and lengths beforehand, so that it holds nearly all.
+// The same from the atlas, over layers that are as it says and others that are not. (Of 20 surfaces each,
+// 1920 and 1847 of 2000 places.)
 TEST(LearnerCoverage, IntervalsFromTheAtlasHoldTheTruth) {
     int const alike = held_places(domain_campaign, layer_of_atlas);
     int const others = held_places(domain_campaign, layer_beside_theory);
     EXPECT_GE(alike, 450);
     EXPECT_GE(others, 450);
-    EXPECT_LE(alike + others, 990);
+    EXPECT_LE(alike, 495);
+    EXPECT_LE(others, 495);
 }
 
 // What a killed run had learnt is in the files: another learner chooses the same.
@@ -179,7 +196,7 @@ TEST_F(LearnedCampaign, ACaseThatHasAllItsPackingsDoesNotGoOn) {
 
 TEST_F(LearnedCampaign, TheBudgetLimitsIt) {
     simulate_all(0.05);
-    Learner learner(plan, *maker, {0.01, 0.5, 4});  // ten cases have cost 0.16 core-seconds each
+    Learner learner(plan, *maker, {0.01, 0.5, 4});  // eight cases have cost 0.16 core-seconds each
     learner.look();
     EXPECT_TRUE(learner.choose().empty());
 }

@@ -47,7 +47,7 @@ struct OnSurface {
 OnSurface calibrate_on(campaign::Plan const& plan, scenario::CaseMaker const& maker,
                        CalibrateArguments const& options, std::vector<learn::MeasuredSpeed> const& speeds) {
     learn::CampaignPoints points = learn::campaign_points(plan, maker);
-    auto const surface = std::make_shared<atlas::Surface const>(points.inputs, points.points, points.prior);
+    auto const surface = std::make_shared<atlas::Surface const>(learn::surface_of(points));
     learn::SpeedModel const model =
         learn::surface_model(surface, maker, options.shared.free, speeds, points.numerics);
     auto const parameters = options.shared.parameters(learn::surface_parameters(points.inputs));

@@ -82,7 +82,7 @@ learn::DesignModel read_surface(DesignOptions const& o, learn::KnownFriction con
     scenario::CaseMaker const maker(std::filesystem::path(o.surface) / "campaign.toml");
     GivenPlace const given = read_places(o.places, maker);
     learn::CampaignPoints points = learn::campaign_points(plan, maker, given.words);
-    auto const surface = std::make_shared<atlas::Surface const>(points.inputs, points.points, points.prior);
+    auto const surface = std::make_shared<atlas::Surface const>(learn::surface_of(points));
     return learn::surface_design_model(surface, learn::CampaignTrend(maker, points.inputs, given.words),
                                        given.numbers, known, points.numerics, discrepancy);
 }

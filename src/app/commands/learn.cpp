@@ -4,12 +4,15 @@
 #include "app/learning.hpp"
 #include "app/progress_log.hpp"
 #include "app/standard_streams.hpp"
+#include "campaign/state/added_cases.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
 #include "prepare/numerical_errors.hpp"
 #include "scenario/reader/swept_keys.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -97,10 +100,25 @@ int conclude(learn::LearnStatus const& status, learn::LearnGoal const& goal, Who
     return reached && status.doubts.empty() ? all_well : some_cases_failed;
 }
 
+/// Keeps the cases that were learnt from before, though the campaign file does not name them any more: its
+/// start was larger.
+void keep_known_cases(campaign::Plan& plan, std::map<std::string, double> const& wanted) {
+    for (auto const& [id, half_width] : wanted) {
+        auto const file = plan.folder / "cases" / id / "scenario.toml";
+        bool const is_planned =
+            std::ranges::any_of(plan.cases, [&](auto const& one) { return one.id == id; });
+        if (is_planned || !std::filesystem::exists(file)) continue;
+        auto const cases = scenario::read_campaign(file).cases;
+        if (cases.size() == 1) campaign::add_case(plan, cases.front());
+    }
+}
+
 int run_learn(LearnArguments const& options) {
     learn::LearnGoal goal = read_goal(options);
     ReadyCampaign ready = prepare_run(options.shared);
     if (ready.is_interrupted) return interrupted;
+    auto wanted = learn::read_wanted_half_widths(ready.plan.folder);
+    keep_known_cases(ready.plan, wanted);
     if (!options.batch) goal.batch = usual_batch(options.shared.jobs, ready.plan);
     scenario::CaseMaker const maker(options.shared.campaign_file);
     Whole const whole{goal.half_width, learn::campaign_points(ready.plan, maker).numerics};
@@ -113,7 +131,6 @@ int run_learn(LearnArguments const& options) {
             whole.numerics, whole.half_width);
     }
     learn::Learner learner(ready.plan, maker, goal);
-    auto wanted = learn::read_wanted_half_widths(ready.plan.folder);
     for (campaign::PlannedCase const& planned : ready.plan.cases)
         wanted.emplace(planned.id, learner.first_half_width(planned.scenario()));
     learn::write_wanted_half_widths(ready.plan.folder, wanted);

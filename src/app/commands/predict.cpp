@@ -118,8 +118,9 @@ struct FittedSurface {
                   std::map<std::string, scenario::Content> const& words, bool with_trend)
         : points(learn::campaign_points(plan, maker, words)),
           trend(maker, points.inputs, words),
-          surface(points.inputs, points.points,
-                  with_trend ? points.prior : atlas::SurfacePrior{.trend = atlas::Trend::constant}) {}
+          surface(with_trend ? learn::surface_of(points)
+                             : atlas::Surface(points.inputs, points.points,
+                                              atlas::SurfacePrior{.trend = atlas::Trend::constant})) {}
 
     learn::CampaignPoints points;
     learn::CampaignTrend trend;
