@@ -88,10 +88,10 @@ ExcitedMachine excited(DesignTask const& t, RiskDesign const& d) {
 
 /// One line, where the atlas knows the damping of the layer.
 std::string damping_text(MovedMachine const& machine) {
-    if (machine.damping.mean == 0) return "";
+    if (!machine.damping) return "";
     return fmt::format(
         "damping           of the layer: {:.3g} of its mass times omega (the atlas of layers)\n",
-        machine.damping.mean);
+        machine.damping->mean);
 }
 
 }  // namespace
@@ -156,7 +156,7 @@ Json exciter_json(DesignTask const& t, RiskDesign const& d) {
             {"material_kg", m.material},
             {"added_mass_fraction", t.machine->added_mass.mean},
             {"added_mass_from", source_of(t.machine->added_mass_source)},
-            {"damping", t.machine->damping.mean != 0 ? Json(t.machine->damping.mean) : Json(nullptr)},
+            {"damping", t.machine->damping ? Json(t.machine->damping->mean) : Json(nullptr)},
             {"stroke_empty_mm", 2e3 * m.empty},
             {"resonance_rpm", 60 * resonance_of(*t.machine, m.material)},
             {"usual_drive_power_w", m.usual_power}};

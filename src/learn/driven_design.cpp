@@ -36,7 +36,8 @@ void settle_load(DesignTask& task, RiskDesign const& design) {
     if (!task.machine) return;
     MovedMachine& machine = *task.machine;
     auto const load = load_of(task, design);
-    machine.damping = load ? uncertain(load->damping) : MovedMachine{}.damping;
+    machine.damping.reset();
+    if (load) machine.damping = uncertain(load->damping);
     if (machine.added_mass_source == AddedMassSource::given) return;
     machine.added_mass = load ? uncertain(load->added_mass) : MovedMachine{}.added_mass;
     machine.added_mass_source = load ? AddedMassSource::atlas : AddedMassSource::maker;

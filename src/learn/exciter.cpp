@@ -27,9 +27,14 @@ double mass_on_springs(MovedMachine const& machine, double frequency, double mat
     return machine.moving_mass(material) - machine.spring / squared_omega(frequency);
 }
 
+/// Damping over the material's mass times omega; none where it is not known.
+Uncertain damping_of(MovedMachine const& machine) {
+    return machine.damping.value_or(Uncertain{0});
+}
+
 /// kg, the force over the acceleration: |m - k / omega^2 - i c / omega|.
 double effective_mass(MovedMachine const& machine, double frequency, double material) {
-    return std::hypot(mass_on_springs(machine, frequency, material), machine.damping.mean * material);
+    return std::hypot(mass_on_springs(machine, frequency, material), damping_of(machine).mean * material);
 }
 
 }  // namespace
@@ -56,7 +61,8 @@ double amplitude_sd(MovedMachine const& machine, double frequency, double materi
     double const effective = effective_mass(machine, frequency, material);
     // A = M_t / sqrt(x^2 + y^2): dA/dx = -A x / (x^2 + y^2), and likewise for y.
     double const by_mass = mass_on_springs(machine, frequency, material) * machine.added_mass.sd;
-    double const by_damping = machine.damping.mean * material * machine.damping.sd;
+    auto const damping = damping_of(machine);
+    double const by_damping = damping.mean * material * damping.sd;
     return amplitude * material * std::hypot(by_mass, by_damping) / (effective * effective);
 }
 

@@ -40,9 +40,10 @@ struct MovedMachine {
     /// layers of spheres have 0.01 to 0.5 (validation/atlas), see settle_load().
     Uncertain added_mass = between_ends(0.10, 0.25);
     AddedMassSource added_mass_source = AddedMassSource::maker;  ///< where that is from
-    /// The damping that the material adds, over its mass times omega. Makers count with none; layers of
-    /// spheres have 0.19 on average (validation/atlas), see settle_load().
-    Uncertain damping = {0};
+    /// The damping that the material adds, over its mass times omega; nothing where it is not known, and
+    /// then none counts, as makers do. Layers of spheres have 0.19 on average (validation/atlas), see
+    /// settle_load().
+    std::optional<Uncertain> damping = {};
 
     /// kg, that move with some material on the trough. @param material  kg
     double moving_mass(double material) const { return mass + added_mass.mean * material; }

@@ -83,7 +83,7 @@ TEST(Exciter, IsOneMassOnSprings) {
 // the order of 2 pi / 1000, over 60 cycles: the transient falls as exp(-c t / 2m) = exp(-2.36 per cycle).
 TEST(Exciter, IsDampedByTheMaterial) {
     MovedMachine machine{100, 0, Exciter{0.3}, {0.2, 0.05}};
-    machine.damping = {0.9, 0.1};
+    machine.damping = Uncertain{0.9, 0.1};
     EXPECT_NEAR(amplitude_of(machine, 16, 100), 0.3 / 150, 1e-15);
     EXPECT_NEAR(exciter_needed(machine, 16, 100, 0.002).static_moment, 0.3, 1e-15);
     machine.spring = 20 * std::pow(2 * std::numbers::pi * 16, 2);  // 20 kg less
@@ -101,7 +101,7 @@ TEST(Exciter, IsDampedByTheMaterial) {
     // What is not known: the difference of the formula itself at one standard deviation.
     MovedMachine heavier = machine, damped = machine;
     heavier.added_mass.mean += 0.05;
-    damped.damping.mean += 0.1;
+    damped.damping->mean += 0.1;
     double const amplitude = amplitude_of(machine, 16, 100);
     EXPECT_NEAR(
         amplitude_sd(machine, 16, 100),

@@ -62,15 +62,6 @@ Instant Slide::stop_between(double w0, Instant from, double lo, double hi, doubl
 Instant Slide::stop(double w0, Instant from, Instant limit, bool begins, double hint, bool& stopped) const {
     double const h_max = limit.t - from.t;
     stopped = true;
-    if (!can_start()) {  // always decelerates
-        if (speed(w0, from, limit.t, limit.cosine) <= 0) {
-            double const from_begin = from.t - (b_ < 0 ? pi / 2 : -pi / 2);
-            double const steepest = two_pi * std::ceil(from_begin / two_pi) - from_begin;
-            return stop_between(w0, from, 0, h_max, steepest, hint);
-        }
-        stopped = false;
-        return limit;
-    }
     double p = begins ? 0 : position(from.t);
     if (!begins && p >= length_ && acceleration(from.sine) > 0) p = p > (two_pi + length_) / 2 ? 0 : length_;
     double lo = p < length_ ? length_ - p : 0;
