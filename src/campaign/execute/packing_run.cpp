@@ -246,7 +246,7 @@ std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
     engine::RunReport const report = engine::examine_run(engine_folder(), status, engine::Stage::driving);
     bool const is_over = interrupted_ || report.failure || stop_ >= packing_.cycles;
     // The policy may want more cycles of this packing, which then continue from its end.
-    if (interrupted_ || (is_over && !report.failure)) seal();
+    if (is_over && !report.failure) seal();
     try {
         if (is_over) place_->bring_back();
     } catch (core::DiskFullError const& error) {
