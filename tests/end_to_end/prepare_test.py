@@ -1,5 +1,6 @@
 """A campaign on a cluster whose scheduler the program does not know: task lists, run by GNU parallel on two "nodes"."""
 
+import json
 import os
 import shlex
 import shutil
@@ -65,6 +66,18 @@ class Prepare(EndToEndTest):
         local = self.folder / "local"
         self.run_campaign(campaign, output=local, wanted=None)
         self.assertEqual(by_tasks, without_wall_time(self.table(local)))
+
+    def test_a_task_takes_as_many_minutes_as_it_is_told(self):
+        # Packings of some seconds each: a task holds as many as the forecast has in a minute, and not one more.
+        campaign = self.write_campaign({"measure.packings": 60, "measure.max_packings": 60, "layer.grains": 300})
+        self.prepare(campaign, "--minutes-per-task", 1)
+        plan = json.loads(self.call("plan", campaign, "--output", self.output, "--json").stdout)
+        seconds = plan["core_time_s"] / 60
+        self.assertLess(seconds, 30, "the test is about several packings in a task")
+        for task in self.tasks()[:-1]:
+            packings = len(task.split()) // 2
+            self.assertLessEqual(packings * seconds, 60.01)
+            self.assertGreater((packings + 1) * seconds, 59.99)
 
     def test_a_task_of_several_packings_that_dies_costs_only_what_it_had_not_finished(self):
         campaign = self.write_campaign({"measure.packings": 4, "measure.max_cycles": 24})
