@@ -6,8 +6,11 @@
 #include "campaign/schedule/until_precise.hpp"
 #include "campaign/state/added_cases.hpp"
 #include "campaign/state/overview.hpp"
+#include "core/error.hpp"
+#include "scenario/reader/swept_keys.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace vibrotrough::app {
 
@@ -39,6 +42,26 @@ bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::str
     }
     campaign::write_campaign_file(ready.plan);
     return true;
+}
+
+void keep_known_cases(campaign::Plan& plan, scenario::CaseMaker const& maker,
+                      std::map<std::string, double> const& wanted) {
+    for (auto const& [id, half_width] : wanted) {
+        auto const file = plan.folder / "cases" / id / "scenario.toml";
+        std::error_code missing;
+        if (!std::filesystem::is_regular_file(file, missing)) continue;
+        try {
+            auto const known = scenario::read_campaign(file).cases;
+            std::map<std::string, scenario::Content> values;
+            for (scenario::DomainAxis const& axis : maker.domain())
+                if (auto const value = scenario::number_of(known.front(), axis.key))
+                    values[axis.key] = *value;
+            auto const now = maker.make(values);
+            if (campaign::plan_case(now, plan.folder, plan.engine_version).id == id)
+                campaign::add_case(plan, now);
+        } catch (core::Error const&) {  // damaged, or values that do not go together any more
+        }
+    }
 }
 
 bool take_steps(std::vector<learn::LearnStep> const& steps, campaign::Plan& plan,

@@ -21,6 +21,11 @@ int usual_batch(int jobs, campaign::Plan const& plan);
 /// @return whether it came to its end; false when it was interrupted
 bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::string, double>& wanted);
 
+/// Keeps the cases that were learnt from before, though the campaign file does not name them any more because
+/// its start was larger. Those of another layer, with other keys than the domain's, stay where they are.
+void keep_known_cases(campaign::Plan& plan, scenario::CaseMaker const& maker,
+                      std::map<std::string, double> const& wanted);
+
 /// Adds the cases of a batch to the plan, and remembers what is wanted of them and of those that go on.
 /// @return whether anything is new; otherwise the next round would simulate nothing
 bool take_steps(std::vector<learn::LearnStep> const& steps, campaign::Plan& plan,

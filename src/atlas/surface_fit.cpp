@@ -86,7 +86,10 @@ inference::GaussianProcess Surface::fit() {
     auto const noisy = inference::GaussianProcess::fitted(known, trend_prior(), settings);
     // Extra noise cannot be negative, so that half of the likelihood ratio's distribution lies at zero (H.
     // Chernoff, Ann. Math. Stat. 25 (1954) 573-578).
-    double const ratio = std::max(0.0, 2 * (noisy.log_likelihood() - process.log_likelihood()));
+    auto const with_prior = [&](inference::GaussianProcess const& one) {
+        return one.log_likelihood() + settings.prior.log_density(one.hyperparameters());
+    };
+    double const ratio = std::max(0.0, 2 * (with_prior(noisy) - with_prior(process)));
     double const p = 0.5 * boost::math::cdf(boost::math::complement(boost::math::chi_squared(1), ratio));
     if (p < significant) process = noisy;
     extra_noise_p_ = p;

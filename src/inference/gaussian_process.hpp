@@ -37,14 +37,17 @@ struct LogNormal {
 
 /// What is known of hyperparameters before. Of those that are not named every logarithm is equally likely.
 struct HyperparameterPrior {
-    std::optional<LogNormal> deviation = {};  ///< of the process
-    std::vector<LogNormal> lengths = {};      ///< one per input, or empty
+    std::optional<LogNormal> deviation = {};             ///< of the process
+    std::vector<std::optional<LogNormal>> lengths = {};  ///< one per input, or empty
 
     /// Logarithm of its density over the logarithms, but for a constant.
     double log_density(Hyperparameters const& hyperparameters) const;
     /// Derivatives of log_density() by the logarithms, in the order of
     /// GaussianProcess::log_likelihood_gradient().
     Eigen::VectorXd gradient(Hyperparameters const& hyperparameters) const;
+    /// @throws std::invalid_argument when medians or deviations are not above 0, or lengths do not fit the
+    /// inputs
+    void check(Eigen::Index inputs) const;
 };
 
 /// How hyperparameters are found.

@@ -1,5 +1,6 @@
 #include "inference/gaussian_process.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -62,8 +63,11 @@ struct Likelihood {
 
 double HyperparameterPrior::log_density(Hyperparameters const& hyperparameters) const {
     double sum = deviation ? std::pow(deviations_of(*deviation, hyperparameters.deviation), 2) : 0;
-    for (std::size_t j = 0; j < lengths.size(); ++j)
-        sum += std::pow(deviations_of(lengths[j], hyperparameters.lengths(static_cast<Eigen::Index>(j))), 2);
+    for (std::size_t j = 0; j < lengths.size(); ++j) {
+        if (!lengths[j]) continue;
+        double const length = hyperparameters.lengths(static_cast<Eigen::Index>(j));
+        sum += std::pow(deviations_of(*lengths[j], length), 2);
+    }
     return -sum / 2;
 }
 
@@ -71,15 +75,26 @@ Eigen::VectorXd HyperparameterPrior::gradient(Hyperparameters const& hyperparame
     Eigen::VectorXd slopes = Eigen::VectorXd::Zero(hyperparameters.lengths.size() + 2);
     if (deviation) slopes(0) = -deviations_of(*deviation, hyperparameters.deviation) / deviation->log_sd;
     for (std::size_t j = 0; j < lengths.size(); ++j) {
+        if (!lengths[j]) continue;
         auto const at = static_cast<Eigen::Index>(j);
-        slopes(1 + at) = -deviations_of(lengths[j], hyperparameters.lengths(at)) / lengths[j].log_sd;
+        slopes(1 + at) = -deviations_of(*lengths[j], hyperparameters.lengths(at)) / lengths[j]->log_sd;
     }
     return slopes;
+}
+
+void HyperparameterPrior::check(Eigen::Index inputs) const {
+    auto const has_sense = [](std::optional<LogNormal> const& one) {
+        return !one || (one->median > 0 && one->log_sd > 0);
+    };
+    bool const fits = lengths.empty() || static_cast<Eigen::Index>(lengths.size()) == inputs;
+    if (!fits || !has_sense(deviation) || !std::ranges::all_of(lengths, has_sense))
+        throw std::invalid_argument("GaussianProcess: what is known of the hyperparameters has no sense");
 }
 
 GaussianProcess GaussianProcess::fitted(ProcessData data, TrendPrior prior, ProcessSettings const& settings) {
     check(data, prior);
     Eigen::Index const inputs = data.inputs.cols();
+    settings.prior.check(inputs);
     std::vector<double> const low = logs_of(settings.least, 0.05, inputs, settings.has_extra_noise);
     std::vector<double> const high = logs_of(settings.most, 20, inputs, settings.has_extra_noise);
     Likelihood likelihood{data, prior, settings.prior, settings.has_extra_noise};

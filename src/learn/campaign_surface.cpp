@@ -17,6 +17,9 @@
 namespace vibrotrough::learn {
 namespace {
 
+/// So much more than layers differ from the atlas may be no chance.
+constexpr double too_large = 1.4;
+
 /// Whether the words of a case are those asked for.
 bool has_words(scenario::Scenario const& scenario, std::map<std::string, scenario::Content> const& words) {
     return std::ranges::all_of(words, [&](auto const& word) {
@@ -113,20 +116,24 @@ CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker c
 }
 
 atlas::Surface surface_of(CampaignPoints const& points) {
-    constexpr double too_large = 1.4;
     atlas::Surface surface(points.inputs, points.points, points.prior);
     auto const& known = points.prior.about_trend.deviation;
-    bool const contradicts =
-        known && surface.process().hyperparameters().deviation > too_large * known->median;
-    if (!contradicts) return surface;
+    if (!known) return surface;
+    inference::Hyperparameters const& found = surface.process().hyperparameters();
+    if (std::hypot(found.deviation, found.extra_noise) <= too_large * known->median) return surface;
     atlas::SurfacePrior careful;
-    for (inference::LogNormal const& length : points.prior.about_trend.lengths)
-        careful.longest.push_back(length.median);
+    careful.about_trend.deviation = inference::LogNormal{2 * known->median, 2 * known->log_sd};
+    for (auto const& length : points.prior.about_trend.lengths)
+        careful.longest.push_back(length ? length->median : atlas::usual_longest_length);
     return {points.inputs, points.points, careful};
 }
 
+bool rests_on_atlas(atlas::Surface const& surface) {
+    return !surface.prior().about_trend.lengths.empty();
+}
+
 int least_points(atlas::Surface const& surface) {
-    int const of_input = surface.prior().about_trend.deviation ? 5 : 10;
+    int const of_input = rests_on_atlas(surface) ? 5 : 10;
     return of_input * static_cast<int>(surface.inputs().size());
 }
 

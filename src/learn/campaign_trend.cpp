@@ -10,8 +10,8 @@ namespace vibrotrough::learn {
 namespace {
 
 /// By how much layers differ from the atlas, which few points cannot show: layers that it had not seen do by
-/// 0.03 (validation/atlas), of which a part is common to a domain. Two thirds of layers lie within a factor
-/// of e^0.5.
+/// 0.03 to 0.05 (validation/atlas), of which a part is common to a domain. How far domains differ in this is
+/// taken to be a factor of e^0.5 (one standard deviation).
 constexpr inference::LogNormal difference_from_atlas{0.03, 0.5};
 constexpr double common_difference = 0.05, difference_of_slope = 0.2;
 /// How well the lengths are known over which that varies, and the shortest of them, in widths of the ranges.
@@ -91,7 +91,7 @@ atlas::SurfacePrior CampaignTrend::prior() const {
     prior.slope_sd = difference_of_slope;
     prior.about_trend.deviation = difference_from_atlas;
     auto& known = prior.about_trend.lengths;
-    known.assign(inputs_.size(), {atlas::usual_longest_length, sd_of_lengths});
+    known.resize(inputs_.size());  // nothing of an input of which the atlas says nothing
     atlas::Place const lengths = atlas::error_lengths();
     atlas::Place middle;
     for (atlas::SurfaceInput const& input : inputs_) middle.push_back(within(input, 0.5));
@@ -107,7 +107,8 @@ atlas::SurfacePrior CampaignTrend::prior() const {
             // So many lengths of the atlas wide is the range.
             double const lengths_wide = std::sqrt(squares) / (1 - 2 * margin);
             if (squares > 0)
-                known[k].median = std::clamp(1 / lengths_wide, shortest_length, atlas::usual_longest_length);
+                known[k] = {std::clamp(1 / lengths_wide, shortest_length, atlas::usual_longest_length),
+                            sd_of_lengths};
         } catch (core::InputError const&) {  // values that do not go together: the usual length stays
         }
     }

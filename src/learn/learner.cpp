@@ -141,7 +141,8 @@ LearnStatus Learner::look() {
                        surface_->quality(),
                        surface_->doubts(),
                        0,
-                       0};
+                       0,
+                       trend_.is_atlas() && !rests_on_atlas(*surface_)};
     for (auto const& [id, time] : core_times_) status.core_time += time;
     double const ratio = status.certainty.at_worst.half_width / goal_.half_width;
     status.core_time_to_go = ratio > 1 ? status.core_time * (ratio * ratio - 1) : 0;

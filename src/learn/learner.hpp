@@ -36,6 +36,8 @@ struct LearnStatus {
     std::vector<std::string> doubts;  ///< see Surface::doubts()
     double core_time;                 ///< s, spent on all results
     double core_time_to_go;           ///< s, forecast: the cost grows as the square of the precision
+    /// Whether the trend is the atlas, and the layers differ from it by more than others do.
+    bool contradicts_atlas = false;
 };
 
 /// A step of learning: a case at a new place, or a narrower interval of a case that is there.

@@ -35,7 +35,7 @@ class Checkpoint(EndToEndTest):
             driver.send_signal(how)
             self.finish(driver)
             wait_until(lambda: not processes_in(self.output), "the engine was gone")
-            if self.sealed_cycle() >= cycle:
+            if cycle <= self.sealed_cycle() < LONG["measure.max_cycles"]:
                 return
             shutil.rmtree(self.output)  # the machine was so busy that the run ended first
         self.fail("no run could be cut in the middle")
@@ -95,18 +95,17 @@ class Checkpoint(EndToEndTest):
         seal = json.loads(note.read_text())
         seal["core_time"] += 1000
         note.write_text(json.dumps(seal))
-        self.take_starts()
         self.run_campaign(campaign, wanted=1)
-        begun = self.begun() if self.take_starts() else 24  # 24: it had all its cycles, and was only evaluated
+        begun = self.begun()
         self.assertGreaterEqual(begun, 10)
         # Ctrl-C makes a checkpoint at the end of the cycle in which it comes. The cycles before are the same, digit for digit; those
         # after it have other digits unless the undisturbed run wrote a checkpoint there, too (src/deck/README.md, checkpoints).
         spent = json.loads((self.packing() / "packing.json").read_text())["core_time"]
-        self.assertTrue(begun == 24 or spent >= seal["core_time"], "what was spent before the checkpoint counts")
+        self.assertGreaterEqual(spent, seal["core_time"], "what was spent before the checkpoint counts")
         now, before = (self.numbers(text) for text in ((self.packing() / "cycles.csv").read_text(), cycles))
         self.assertEqual(now[: begun + 1], before[: begun + 1])
         self.assertEqual(len(now), len(before))
-        if begun in (10, 15, 20, 24):
+        if begun in (10, 15, 20):
             self.assertEqual(without_wall_time(self.table()), table)
         else:
             self.assertEqual(self.table()[0]["outcome"], table[0]["outcome"])

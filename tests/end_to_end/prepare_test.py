@@ -69,11 +69,12 @@ class Prepare(EndToEndTest):
 
     def test_a_task_takes_as_many_minutes_as_it_is_told(self):
         # Packings of some seconds each: a task holds as many as the forecast has in a minute, and not one more.
-        campaign = self.write_campaign({"measure.packings": 60, "measure.max_packings": 60, "layer.grains": 300})
+        campaign = self.write_campaign({"measure.packings": 500, "measure.max_packings": 500, "layer.grains": 300})
         self.prepare(campaign, "--minutes-per-task", 1)
         plan = json.loads(self.call("plan", campaign, "--output", self.output, "--json").stdout)
-        seconds = plan["core_time_s"] / 60
+        seconds = plan["core_time_s"] / 500
         self.assertLess(seconds, 30, "the test is about several packings in a task")
+        self.assertGreater(len(self.tasks()), 1, "and about several tasks")
         for task in self.tasks()[:-1]:
             packings = len(task.split()) // 2
             self.assertLessEqual(packings * seconds, 60.01)

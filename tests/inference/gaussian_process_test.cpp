@@ -117,7 +117,7 @@ TEST(GaussianProcess, FindsItsHyperparameters) {
 // log p = -sum (ln(x / median) / log_sd)^2 / 2, and its derivatives by ln x are those of central differences,
 // whose error is of the order step^2.
 TEST(HyperparameterPrior, IsNormalInTheLogarithms) {
-    HyperparameterPrior const known{LogNormal{0.2, 0.5}, {{0.4, 0.25}}};
+    HyperparameterPrior const known{LogNormal{0.2, 0.5}, {LogNormal{0.4, 0.25}}};
     EXPECT_EQ(known.log_density({0.2, at(0.4)}), 0);
     EXPECT_NEAR(known.log_density({0.2 * std::exp(0.5), at(0.4)}), -0.5, 1e-12);
     EXPECT_NEAR(known.log_density({0.2, at(0.4 * std::exp(-0.5))}), -2, 1e-12);
@@ -133,19 +133,28 @@ TEST(HyperparameterPrior, IsNormalInTheLogarithms) {
         (known.log_density({0.3, at(0.3 * up)}) - known.log_density({0.3, at(0.3 * down)})) / (2 * step),
         1e-5);
     EXPECT_EQ(g(2), 0);  // nothing is known of the extra noise
+    EXPECT_EQ((HyperparameterPrior{{}, {std::nullopt}}.log_density({0.3, at(0.3)})), 0);
+    for (HyperparameterPrior const& wrong :
+         {HyperparameterPrior{LogNormal{0, 1}}, HyperparameterPrior{LogNormal{1, 0}},
+          HyperparameterPrior{{}, {LogNormal{-1, 1}}},
+          HyperparameterPrior{{}, {LogNormal{1, 1}, LogNormal{1, 1}}}}) {
+        ProcessSettings settings;
+        settings.prior = wrong;
+        EXPECT_THROW(GaussianProcess::fitted(wave(4, 0.1), constant, settings), std::invalid_argument);
+    }
 }
 
 // Two values say little of the hyperparameters: what is known of them decides. Many values overrule it: they
 // differ by 0.6 and more, not by 0.03.
 TEST(GaussianProcess, WhatIsKnownOfHyperparametersCountsUntilTheDataSayMore) {
     ProcessSettings settings;
-    settings.prior = {LogNormal{0.03, 0.1}, {{3, 0.1}}};
+    settings.prior = {LogNormal{0.03, 0.1}, {LogNormal{3, 0.1}}};
     ProcessData two = wave(2, 0.5);
     two.values = Eigen::Vector2d(0.01, -0.01);
     auto const vague = GaussianProcess::fitted(two, constant, settings).hyperparameters();
     EXPECT_NEAR(vague.deviation, 0.03, 0.001);
     EXPECT_NEAR(vague.lengths(0), 3, 0.1);
-    settings.prior = {LogNormal{0.03, 0.5}, {{3, 0.5}}};
+    settings.prior = {LogNormal{0.03, 0.5}, {LogNormal{3, 0.5}}};
     auto const told = GaussianProcess::fitted(wave(40, 0.01), constant, settings).hyperparameters();
     EXPECT_GT(told.deviation, 0.3);
 }

@@ -81,8 +81,19 @@ TEST(CampaignTrend, OfTheAtlasBringsItsPrior) {
         auto const& input = trend.inputs()[k];
         double const length = lengths[input.key == "trough.throw_number" ? atlas::throw_number_input
                                                                          : atlas::rolling_friction_input];
-        EXPECT_NEAR(prior.about_trend.lengths[k].median * (input.high - input.low), length, 0.01 * length);
+        EXPECT_NEAR(prior.about_trend.lengths[k].value().median * (input.high - input.low), length,
+                    0.01 * length);
     }
+}
+
+// Of an input that the atlas does not have, such as the spread of the diameters, nothing is known: least of
+// all that a surface is smooth along it.
+TEST(CampaignTrend, OfTheAtlasKnowsNothingOfOtherInputs) {
+    auto const prior =
+        trend_of(domain_campaign + "\"grains.diameter_spread\" = { from = 0.05, to = 0.15 }\n").prior();
+    ASSERT_EQ(prior.about_trend.lengths.size(), 3U);
+    auto const is_unknown = [](auto const& length) { return !length; };
+    EXPECT_EQ(std::ranges::count_if(prior.about_trend.lengths, is_unknown), 1);
 }
 
 }  // namespace

@@ -121,11 +121,11 @@ TEST(LearningCost, IsFarBelowThatOfAGridAndOfADesignWithoutTheTheory) {
     EXPECT_LT(of_grid, 0.4);
 }
 
-// From the atlas, of whose kind the layers are, no more than a third.
-TEST(LearningCost, IsAThirdFromTheAtlas) {
+// From the atlas, from which layers differ as is known of them; 7 and 5 % are measured.
+TEST(LearningCost, IsAboutATenthFromTheAtlas) {
     auto const [of_sobol, of_grid] = shares_of_cost(domain_campaign, roughened(layer_of_atlas, 1));
-    EXPECT_LT(of_sobol, 1 / 3.0);
-    EXPECT_LT(of_grid, 1 / 3.0);
+    EXPECT_LT(of_sobol, 0.15);
+    EXPECT_LT(of_grid, 0.15);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ NO_TEST = "ctest: "
 
 TITLE = """# The last run of the mutants
 
-Written by `mutants.py --table`. [README.md](README.md#last-run) says how it was run and what **nothing** means.
+Written by `mutants.py --table`. [README.md](README.md#last-run) says how it was run.
 """
 HEADER = """#ifdef __cplusplus
 #include <cstdlib>

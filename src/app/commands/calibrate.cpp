@@ -79,6 +79,7 @@ int refine(CalibrateArguments const& options, std::vector<learn::MeasuredSpeed> 
     scenario::CaseMaker const maker(running.campaign_file);
     learn::LearnGoal const goal{useful_half_width(speeds), budget, usual_batch(running.jobs, ready.plan)};
     auto wanted = learn::read_wanted_half_widths(ready.plan.folder);
+    keep_known_cases(ready.plan, maker, wanted);
     while (true) {
         if (!simulate(running, ready, wanted)) return interrupted;
         OnSurface const found = calibrate_on(ready.plan, maker, options, speeds);

@@ -4,15 +4,12 @@
 #include "app/learning.hpp"
 #include "app/progress_log.hpp"
 #include "app/standard_streams.hpp"
-#include "campaign/state/added_cases.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
 #include "prepare/numerical_errors.hpp"
 #include "scenario/reader/swept_keys.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -47,10 +44,14 @@ std::string describe(learn::LearnStatus const& s, std::vector<atlas::SurfaceInpu
     return fmt::format(
         "{} cases{}: largest half-width {:.4f} at {}, mean {:.4f}; Q2 {:.3f}, {} of {} left-out points "
         "covered; {:.3g} core-hours spent, "
-        "about {:.2g} to go",
+        "about {:.2g} to go{}",
         s.cases, s.apart > 0 ? fmt::format(" ({} more kept apart)", s.apart) : "",
         s.certainty.at_worst.half_width, place_text(s.certainty.worst, inputs), s.certainty.mean_half_width,
-        s.quality.q2, s.quality.covered, s.quality.points, s.core_time / 3600, s.core_time_to_go / 3600);
+        s.quality.q2, s.quality.covered, s.quality.points, s.core_time / 3600, s.core_time_to_go / 3600,
+        s.contradicts_atlas ? "; these layers differ from the atlas more than others do, so that ten points "
+                              "for each input are "
+                              "needed"
+                            : "");
 }
 
 /// What is wanted of the whole, and what the numerical errors of the simulations leave of it.
@@ -100,27 +101,14 @@ int conclude(learn::LearnStatus const& status, learn::LearnGoal const& goal, Who
     return reached && status.doubts.empty() ? all_well : some_cases_failed;
 }
 
-/// Keeps the cases that were learnt from before, though the campaign file does not name them any more: its
-/// start was larger.
-void keep_known_cases(campaign::Plan& plan, std::map<std::string, double> const& wanted) {
-    for (auto const& [id, half_width] : wanted) {
-        auto const file = plan.folder / "cases" / id / "scenario.toml";
-        bool const is_planned =
-            std::ranges::any_of(plan.cases, [&](auto const& one) { return one.id == id; });
-        if (is_planned || !std::filesystem::exists(file)) continue;
-        auto const cases = scenario::read_campaign(file).cases;
-        if (cases.size() == 1) campaign::add_case(plan, cases.front());
-    }
-}
-
 int run_learn(LearnArguments const& options) {
     learn::LearnGoal goal = read_goal(options);
     ReadyCampaign ready = prepare_run(options.shared);
     if (ready.is_interrupted) return interrupted;
     auto wanted = learn::read_wanted_half_widths(ready.plan.folder);
-    keep_known_cases(ready.plan, wanted);
     if (!options.batch) goal.batch = usual_batch(options.shared.jobs, ready.plan);
     scenario::CaseMaker const maker(options.shared.campaign_file);
+    keep_known_cases(ready.plan, maker, wanted);
     Whole const whole{goal.half_width, learn::campaign_points(ready.plan, maker).numerics};
     goal.half_width = whole.left().value_or(whole.half_width);
     if (!whole.left()) {
@@ -170,8 +158,8 @@ void add_learn(CLI::App& program, int& exit_code) {
 simulated first. Then a surface is fitted (see 'vibrotrough predict --help'), and each further batch is chosen so that
 it lowers the uncertainty of the surface most per core-hour: cases at new places, or more packings of cases that are
 there. Learning ends when the largest half-width is as asked, left-out points lie within their predicted intervals as
-often as they should, and there are at least five points for each input (ten for layers of a kind that the atlas does
-not cover); or when the budget allows no further step. It then says why the goal was not reached. The half-width holds
+often as they should, and there are at least five points for each input (ten for layers that the atlas does not
+cover, or that differ from it more than others do); or when the budget allows no further step. It then says why the goal was not reached. The half-width holds
 statistics and the bound of the numerical errors of the cases together; what the latter leave of it is what the
 statistics are learnt to.
 
