@@ -22,7 +22,7 @@ double read_core_time(std::string const& text) {
 
 int usual_batch(int jobs, campaign::Plan const& plan) {
     int const packings = plan.cases.empty() ? 1 : plan.cases.front().scenario().measure.packings;
-    return std::max(2, jobs / std::max(1, packings));
+    return std::max(1, jobs / std::max(1, packings));
 }
 
 bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::string, double>& wanted) {

@@ -12,8 +12,8 @@ namespace vibrotrough::app {
 /// "4 core-hours" in core-seconds. @throws core::InputError naming the option --budget
 double read_core_time(std::string const& text);
 
-/// Cases that are chosen at once unless the user says otherwise: as few as keep all jobs busy, and at least
-/// two, since later choices know more. Each case begins with several packings.
+/// Cases that are chosen at once unless the user says otherwise: as few as keep all jobs busy, since later
+/// choices know more. Each case begins with several packings.
 int usual_batch(int jobs, campaign::Plan const& plan);
 
 /// Simulates the cases of a campaign until each is as precise as wanted.

@@ -38,6 +38,9 @@ inline constexpr double usual_longest_length = 5;
 /// What is taken of a surface before its points are known.
 struct SurfacePrior {
     Trend trend = Trend::theory;  ///< of the process
+    /// The least standard deviation of the values about the trend, in velocity efficiency. A trend that errs
+    /// by more than few points can show needs one.
+    double least_deviation = 0.005;
     /// The longest length over which a surface varies, in widths of each input's range; empty:
     /// usual_longest_length for each.
     std::vector<double> longest = {};

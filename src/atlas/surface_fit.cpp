@@ -19,7 +19,7 @@ namespace {
 constexpr double significant = 0.01;
 /// Hyperparameters are equally likely in their logarithm within these bounds; lengths over the scaled inputs.
 constexpr inference::Bounds extra_noise_prior{1e-3, 1};
-constexpr inference::Bounds deviation_prior{0.005, 1};
+constexpr double largest_deviation = 1;
 constexpr double shortest_length = 0.05;
 /// Every 25th draw of the posterior is used: 24 of four chains.
 constexpr int thinning = 25;
@@ -80,6 +80,8 @@ inference::GaussianProcess Surface::fit() {
     inference::ProcessData const known = data();
     inference::ProcessSettings settings;
     settings.prior = prior_.about_trend;
+    if (prior_.least_deviation > SurfacePrior{}.least_deviation)
+        settings.least.deviation = prior_.least_deviation;
     if (!prior_.longest.empty()) settings.most.lengths = longest_lengths(prior_, d);
     auto process = inference::GaussianProcess::fitted(known, trend_prior(), settings);
     settings.has_extra_noise = true;
@@ -115,7 +117,7 @@ void Surface::draw_others() {
             return -std::numeric_limits<double>::infinity();  // numerically singular
         }
     };
-    std::vector<inference::Bounds> bounds{logs_of(deviation_prior)};
+    std::vector<inference::Bounds> bounds{logs_of({prior_.least_deviation, largest_deviation})};
     for (double const longest : longest_lengths(prior_, d))
         bounds.push_back(logs_of({shortest_length, longest}));
     if (is_noisy) bounds.push_back(logs_of(extra_noise_prior));

@@ -122,9 +122,8 @@ atlas::Surface surface_of(CampaignPoints const& points) {
     inference::Hyperparameters const& found = surface.process().hyperparameters();
     if (std::hypot(found.deviation, found.extra_noise) <= too_large * known->median) return surface;
     atlas::SurfacePrior careful;
-    careful.about_trend.deviation = inference::LogNormal{2 * known->median, 2 * known->log_sd};
-    for (auto const& length : points.prior.about_trend.lengths)
-        careful.longest.push_back(length ? length->median : atlas::usual_longest_length);
+    careful.least_deviation = points.prior.least_deviation;
+    careful.longest = points.prior.longest;
     return {points.inputs, points.points, careful};
 }
 

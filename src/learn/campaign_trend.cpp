@@ -9,12 +9,17 @@
 namespace vibrotrough::learn {
 namespace {
 
+/// By how much layers differ from the atlas at least; few points cannot show that it is less.
+constexpr double least_difference = 0.02;
 /// By how much layers differ from the atlas, which few points cannot show: layers that it had not seen do by
 /// 0.03 to 0.05 (validation/atlas), of which a part is common to a domain. How far domains differ in this is
 /// taken to be a factor of e^0.5 (one standard deviation).
 constexpr inference::LogNormal difference_from_atlas{0.03, 0.5};
 constexpr double common_difference = 0.05, difference_of_slope = 0.2;
-/// How well the lengths are known over which that varies, and the shortest of them, in widths of the ranges.
+/// The lengths over which that varies, at most, over those of the atlas' own process, which has learnt the
+/// longer waves: so the surfaces of validation/decisions hold what was not simulated.
+constexpr double part_of_lengths = 0.7;
+/// How well they are known, and the shortest of them, in widths of the ranges.
 constexpr double sd_of_lengths = 0.5, shortest_length = 0.1;
 /// How far from their ends ranges are looked at, over their width: a value at an end may be none of a key.
 constexpr double margin = 0.01;
@@ -92,6 +97,8 @@ atlas::SurfacePrior CampaignTrend::prior() const {
     prior.about_trend.deviation = difference_from_atlas;
     auto& known = prior.about_trend.lengths;
     known.resize(inputs_.size());  // nothing of an input of which the atlas says nothing
+    prior.least_deviation = least_difference;
+    prior.longest.assign(inputs_.size(), atlas::usual_longest_length);
     atlas::Place const lengths = atlas::error_lengths();
     atlas::Place middle;
     for (atlas::SurfaceInput const& input : inputs_) middle.push_back(within(input, 0.5));
@@ -106,9 +113,10 @@ atlas::SurfacePrior CampaignTrend::prior() const {
                 squares += std::pow(((*to)[j] - (*from)[j]) / lengths[j], 2);
             // So many lengths of the atlas wide is the range.
             double const lengths_wide = std::sqrt(squares) / (1 - 2 * margin);
-            if (squares > 0)
-                known[k] = {std::clamp(1 / lengths_wide, shortest_length, atlas::usual_longest_length),
-                            sd_of_lengths};
+            if (!(squares > 0)) continue;
+            prior.longest[k] =
+                std::clamp(part_of_lengths / lengths_wide, shortest_length, atlas::usual_longest_length);
+            known[k] = {prior.longest[k], sd_of_lengths};
         } catch (core::InputError const&) {  // values that do not go together: the usual length stays
         }
     }

@@ -68,12 +68,13 @@ TEST(CampaignTrend, OfADomainThatChangesTheKindIsTheTheory) {
     EXPECT_FALSE(trend_of(walls).is_atlas());
 }
 
-// The difference from the atlas has its size and the lengths of its own process: what so few points cannot
-// show is taken from the atlas. Its lengths there belong to the ranges of the atlas.
+// The difference from the atlas has its size, and 0.7 of the lengths of its own process at most: what so few
+// points cannot show is taken from the atlas. Its lengths there belong to the ranges of the atlas.
 TEST(CampaignTrend, OfTheAtlasBringsItsPrior) {
     CampaignTrend const trend = trend_of(domain_campaign);
     auto const prior = trend.prior();
     EXPECT_EQ(prior.about_trend.deviation.value().median, 0.03);
+    EXPECT_EQ(prior.least_deviation, 0.02);
     EXPECT_EQ(prior.offset_sd, 0.05);
     EXPECT_EQ(prior.slope_sd, 0.2);
     atlas::Place const lengths = atlas::error_lengths();
@@ -81,8 +82,8 @@ TEST(CampaignTrend, OfTheAtlasBringsItsPrior) {
         auto const& input = trend.inputs()[k];
         double const length = lengths[input.key == "trough.throw_number" ? atlas::throw_number_input
                                                                          : atlas::rolling_friction_input];
-        EXPECT_NEAR(prior.about_trend.lengths[k].value().median * (input.high - input.low), length,
-                    0.01 * length);
+        EXPECT_NEAR(prior.longest[k] * (input.high - input.low), 0.7 * length, 0.01 * length);
+        EXPECT_EQ(prior.about_trend.lengths[k].value().median, prior.longest[k]);
     }
 }
 
@@ -92,6 +93,7 @@ TEST(CampaignTrend, OfTheAtlasKnowsNothingOfOtherInputs) {
     auto const prior =
         trend_of(domain_campaign + "\"grains.diameter_spread\" = { from = 0.05, to = 0.15 }\n").prior();
     ASSERT_EQ(prior.about_trend.lengths.size(), 3U);
+    EXPECT_EQ(std::ranges::count(prior.longest, atlas::usual_longest_length), 1);
     auto const is_unknown = [](auto const& length) { return !length; };
     EXPECT_EQ(std::ranges::count_if(prior.about_trend.lengths, is_unknown), 1);
 }

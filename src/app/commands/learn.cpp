@@ -152,7 +152,7 @@ void add_learn(CLI::App& program, int& exit_code) {
     command->add_option("--budget", options->budget,
                         "Core time of all simulations together, for example \"4 core-hours\"");
     command->add_option("--batch", options->batch,
-                        "Cases that are chosen at once; default: as many as keep all jobs busy, at least 2");
+                        "Cases that are chosen at once; default: as many as keep all jobs busy");
     command->footer(
         R"(The section [domain] of the campaign file gives the ranges of the inputs. A few cases that fill the domain are
 simulated first. Then a surface is fitted (see 'vibrotrough predict --help'), and each further batch is chosen so that
