@@ -68,17 +68,18 @@ class Prepare(EndToEndTest):
         self.assertEqual(by_tasks, without_wall_time(self.table(local)))
 
     def test_a_task_takes_as_many_minutes_as_it_is_told(self):
-        # Packings of some seconds each: a task holds as many as the forecast has in a minute, and not one more.
+        # Packings of a second or so each: a task holds as many as fill a minute. The task counts the cycles that a packing has at first,
+        # the plan those that it probably needs in the end: hence a factor of three.
         campaign = self.write_campaign({"measure.packings": 500, "measure.max_packings": 500, "layer.grains": 300})
         self.prepare(campaign, "--minutes-per-task", 1)
         plan = json.loads(self.call("plan", campaign, "--output", self.output, "--json").stdout)
         seconds = plan["core_time_s"] / 500
-        self.assertLess(seconds, 30, "the test is about several packings in a task")
-        self.assertGreater(len(self.tasks()), 1, "and about several tasks")
+        self.assertGreater(len(self.tasks()), 1, "the test is about several tasks")
         for task in self.tasks()[:-1]:
             packings = len(task.split()) // 2
-            self.assertLessEqual(packings * seconds, 60.01)
-            self.assertGreater((packings + 1) * seconds, 59.99)
+            self.assertGreater(packings, 1, "and about several packings in each")
+            self.assertGreater(packings * seconds, 20)
+            self.assertLess(packings * seconds, 180)
 
     def test_a_task_of_several_packings_that_dies_costs_only_what_it_had_not_finished(self):
         campaign = self.write_campaign({"measure.packings": 4, "measure.max_cycles": 24})
