@@ -61,6 +61,13 @@ class Package(Unpacked):
         for name in ("-dev", "slurm", "clang", "gtest"):
             self.assertNotIn(name, needed)
 
+    def test_the_libraries_of_all_programs_were_asked_for(self):
+        # src/app/release_archive.cmake names the programs whose libraries the package needs.
+        programs = {path.name.split(".")[0] for root in (self.root, self.module_root) for path in root.rglob("*")
+                    if path.is_file() and path.read_bytes()[:4] == b"\x7fELF"}  # fmt: skip
+        self.assertLessEqual(programs, {"vibrotrough", "vibrotrough-with-vtk", "_vibrotrough_theory"})
+        self.assertIn("libstdc++6", self.field("Depends", self.module))
+
     def test_nothing_points_into_the_folder_it_was_built_in(self):
         for path in [*self.root.rglob("*"), *self.module_root.rglob("*")]:
             if path.is_file():
