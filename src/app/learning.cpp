@@ -52,6 +52,7 @@ void keep_known_cases(campaign::Plan& plan, scenario::CaseMaker const& maker,
         if (!std::filesystem::is_regular_file(file, missing)) continue;
         try {
             auto const known = scenario::read_campaign(file).cases;
+            if (known.size() != 1) continue;
             std::map<std::string, scenario::Content> values;
             for (scenario::DomainAxis const& axis : maker.domain())
                 if (auto const value = scenario::number_of(known.front(), axis.key))

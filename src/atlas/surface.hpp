@@ -80,7 +80,8 @@ struct SurfaceQuality {
 /// Few points do not tell the hyperparameters well, and those of the largest likelihood give intervals that
 /// are too narrow. What the surface says of a place is therefore the mean and the variance over 24 draws from
 /// the posterior of the hyperparameters (equally likely in their logarithm within wide bounds, unless more is
-/// known). The process of the largest likelihood decides about extra noise and what to simulate next.
+/// known). The process of the largest likelihood, with what is known, decides about extra noise and what to
+/// simulate next.
 ///
 /// If the points scatter by more than their intervals say (likelihood ratio test, p < 0.01), extra noise is
 /// estimated and kept, so that the surface does not pretend to be sure.

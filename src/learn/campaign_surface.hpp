@@ -41,8 +41,7 @@ CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker c
 
 /// The surface over the points. Where they differ from the atlas by more than 1.4 times what layers do, what
 /// is known of that difference may not hold for them: then its least size alone is taken, and the longest
-/// lengths over which it varies. (With twice instead of 1.4, surfaces over
-/// synthetic layers of this kind held 90 instead of 92 % of the truth.)
+/// lengths over which it varies.
 /// @throws core::InputError as Surface
 atlas::Surface surface_of(CampaignPoints const& points);
 

@@ -35,7 +35,7 @@ TEST_F(LearnedCampaign, BeginsWithPointsThatFillTheDomain) {
     }
     EXPECT_GE(low, 1);
     EXPECT_LE(high, 3);
-    EXPECT_GT(high - low, 1.4);  // eight points in one dimension leave gaps of about a tenth of the range
+    EXPECT_GT(high - low, 1.4);  // eight points in one dimension leave gaps of about an eighth of the range
 }
 
 TEST_F(LearnedCampaign, PointsAreWhatWasSimulated) {

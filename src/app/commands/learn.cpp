@@ -48,10 +48,7 @@ std::string describe(learn::LearnStatus const& s, std::vector<atlas::SurfaceInpu
         s.cases, s.apart > 0 ? fmt::format(" ({} more kept apart)", s.apart) : "",
         s.certainty.at_worst.half_width, place_text(s.certainty.worst, inputs), s.certainty.mean_half_width,
         s.quality.q2, s.quality.covered, s.quality.points, s.core_time / 3600, s.core_time_to_go / 3600,
-        s.contradicts_atlas ? "; these layers differ from the atlas more than others do, so that ten points "
-                              "for each input are "
-                              "needed"
-                            : "");
+        s.contradicts_atlas ? "; these layers differ from the atlas more than others do" : "");
 }
 
 /// What is wanted of the whole, and what the numerical errors of the simulations leave of it.
@@ -158,10 +155,10 @@ void add_learn(CLI::App& program, int& exit_code) {
 simulated first. Then a surface is fitted (see 'vibrotrough predict --help'), and each further batch is chosen so that
 it lowers the uncertainty of the surface most per core-hour: cases at new places, or more packings of cases that are
 there. Learning ends when the largest half-width is as asked, left-out points lie within their predicted intervals as
-often as they should, and there are at least five points for each input (ten for layers that the atlas does not
-cover, or that differ from it more than others do); or when the budget allows no further step. It then says why the goal was not reached. The half-width holds
-statistics and the bound of the numerical errors of the cases together; what the latter leave of it is what the
-statistics are learnt to.
+often as they should, and there are at least five points for each input (ten for layers that the atlas does not cover,
+or that differ from it more than others do); or when the budget allows no further step. It then says why the goal was
+not reached. The half-width holds statistics and the bound of the numerical errors of the cases together; what the
+latter leave of it is what the statistics are learnt to.
 
 Each step prints the worst place, Q2, how many left-out points are covered, the core time so far and an estimate of
 what is to go. Ctrl-C stops cleanly, and the same command continues.
