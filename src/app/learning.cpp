@@ -46,6 +46,9 @@ bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::str
 
 void keep_known_cases(campaign::Plan& plan, scenario::CaseMaker const& maker,
                       std::map<std::string, double> const& wanted) {
+    std::erase_if(plan.cases, [&](campaign::PlannedCase const& one) {
+        return one.is_added && !learn::same_case(one.scenario(), one.id, plan, maker);
+    });
     for (auto const& [id, half_width] : wanted) {
         auto const file = plan.folder / "cases" / id / "scenario.toml";
         std::error_code missing;
@@ -53,14 +56,9 @@ void keep_known_cases(campaign::Plan& plan, scenario::CaseMaker const& maker,
         try {
             auto const known = scenario::read_campaign(file).cases;
             if (known.size() != 1) continue;
-            std::map<std::string, scenario::Content> values;
-            for (scenario::DomainAxis const& axis : maker.domain())
-                if (auto const value = scenario::number_of(known.front(), axis.key))
-                    values[axis.key] = *value;
-            auto const now = maker.make(values);
-            if (campaign::plan_case(now, plan.folder, plan.engine_version).id == id)
-                campaign::add_case(plan, now);
-        } catch (core::Error const&) {  // damaged, or values that do not go together any more
+            if (auto const now = learn::same_case(known.front(), id, plan, maker))
+                campaign::add_case(plan, *now);
+        } catch (core::Error const&) {  // damaged
         }
     }
 }

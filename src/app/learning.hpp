@@ -22,7 +22,8 @@ int usual_batch(int jobs, campaign::Plan const& plan);
 bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::string, double>& wanted);
 
 /// Keeps the cases that were learnt from before, though the campaign file does not name them any more because
-/// its start was larger. Those of another layer, with other keys than the domain's, stay where they are.
+/// its start was larger. Those of another layer, from before a key outside the domain was edited, are left
+/// out; they stay where they are.
 void keep_known_cases(campaign::Plan& plan, scenario::CaseMaker const& maker,
                       std::map<std::string, double> const& wanted);
 

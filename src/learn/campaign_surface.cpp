@@ -82,6 +82,19 @@ double distance(atlas::Place const& a, atlas::Place const& b,
 
 }  // namespace
 
+std::optional<scenario::Scenario> same_case(scenario::Scenario const& scenario, std::string const& id,
+                                            campaign::Plan const& plan, scenario::CaseMaker const& maker) {
+    std::map<std::string, scenario::Content> values;
+    for (std::string const& key : maker.varied_keys())
+        if (auto const value = scenario::key_value(scenario, key)) values[key] = *value;
+    try {
+        auto now = maker.make(values);
+        if (campaign::plan_case(now, plan.folder, plan.engine_version).id == id) return now;
+    } catch (core::InputError const&) {  // values that do not go together any more
+    }
+    return {};
+}
+
 CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker const& maker,
                                std::map<std::string, scenario::Content> const& words) {
     CampaignTrend const trend(maker, inputs_of(plan, maker, words), words);
@@ -90,6 +103,7 @@ CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker c
     for (campaign::PlannedCase const& planned : plan.cases) {
         require_steady_drive(planned.scenario(), "a surface");
         if (!has_words(planned.scenario(), words)) continue;
+        if (planned.is_added && !same_case(planned.scenario(), planned.id, plan, maker)) continue;
         auto const place = place_of(planned.scenario(), found.inputs);
         auto const value = place ? trend.efficiency_of(*planned.prepared) : std::nullopt;
         if (!value) continue;

@@ -33,8 +33,13 @@ struct CampaignPoints {
     atlas::SurfacePrior prior;  ///< of their surface, unless they contradict it (surface_of())
 };
 
+/// What the campaign file gives now for the varied keys of a scenario that was planned as the case `id`;
+/// nothing when that is another layer, because another key was edited since.
+std::optional<scenario::Scenario> same_case(scenario::Scenario const& scenario, std::string const& id,
+                                            campaign::Plan const& plan, scenario::CaseMaker const& maker);
+
 /// The cases of a campaign, sorted into points and what is kept apart. Cases at which the trend has no mean
-/// speed, or whose words differ from `words`, are left out.
+/// speed, whose words differ from `words`, or that were added for another layer, are left out.
 /// @throws core::InputError when no number is varied, or cases differ in a word that `words` does not give
 CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker const& maker,
                                std::map<std::string, scenario::Content> const& words = {});

@@ -74,6 +74,14 @@ class Learn(EndToEndTest):
         self.assertEqual(self.starts_file.stat().st_size, starts)
         self.assertEqual(len(self.results()), cases)
 
+        # With another floor none of them counts: four new ones begin.
+        file = self.write_domain()
+        file.write_text(file.read_text().replace('friction = 0.23', 'friction = 0.3', 1))
+        other = self.call("learn", file, "--output", self.output, "--liggghts", self.engine, "--quiet", "--accept-findings", "--half-width", "0.4",
+                          "--budget", "1 core-seconds")
+        self.assertEqual(other.returncode, 1, other.stderr)
+        self.assertTrue(other.stdout.startswith("4 cases: "), other.stdout)
+
     def test_an_interruption_is_told_apart_from_the_answer(self):
         words = ["learn", self.write_domain(), "--output", self.output, "--liggghts", self.engine, "--quiet", "--accept-findings", "--half-width", "0.4",
                  "--budget", "1 core-hours"]

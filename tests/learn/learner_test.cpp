@@ -60,6 +60,25 @@ TEST_F(LearnedCampaign, PointsAreWhatWasSimulated) {
     EXPECT_NEAR(*trend.efficiency_at(points.points[0].place), points.points[0].theory, 1e-9);
 }
 
+// Cases that were added before a key outside the domain was edited are of another layer.
+TEST_F(LearnedCampaign, AddedCasesOfAnotherLayerAreNoPoints) {
+    simulate_all(0.03);
+    auto const at = [&](double gamma) {
+        return maker->make({{"trough.throw_number", gamma}, {"grains.rolling_friction", 0.2}});
+    };
+    simulate(*campaign::add_case(plan, at(1.7)), 0.03);
+    EXPECT_EQ(campaign_points(plan, *maker).points.size(), 9U);
+    auto const points_after = [&](std::string const& text) {
+        auto const file = plan.folder / "edited.toml";
+        std::ofstream(file) << text;
+        auto const edited = campaign::make_plan(scenario::read_campaign(file), plan.folder, "LIGGGHTS 3.8.0");
+        return campaign_points(edited, scenario::CaseMaker(file)).points.size();
+    };
+    EXPECT_EQ(points_after(campaign_of_another_kind), 9U);
+    std::string other = campaign_of_another_kind;
+    EXPECT_EQ(points_after(other.replace(other.find("friction = 0.23"), 15, "friction = 0.25")), 0U);
+}
+
 // The loop ends with the half-widths that were asked for.
 TEST_F(LearnedCampaign, ReachesTheHalfWidth) {
     LearnGoal const goal{0.05, 1e6, 4};

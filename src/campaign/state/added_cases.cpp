@@ -45,6 +45,7 @@ PlannedCase const* add_case(Plan& plan, scenario::Scenario const& scenario) {
     int number = 1;
     while (fs::exists(plan.folder / "added" / fmt::format("{:04}", number))) ++number;
     write_scenario(scenario, plan.folder / "added" / fmt::format("{:04}", number));
+    planned.is_added = true;
     plan.cases.push_back(std::move(planned));
     label_cases(plan);
     return &plan.cases.back();

@@ -40,9 +40,9 @@ std::vector<IdentifiedCase> identify(Scenarios const& scenarios, std::string con
 /// Plans scenarios one after the other; each id once, because two ways to write one case are one case.
 class Planner {
   public:
-    void add(Scenarios const& scenarios, std::string const& engine_version) {
+    void add(Scenarios const& scenarios, std::string const& engine_version, bool is_added = false) {
         for (auto& [prepared, id] : identify(scenarios, engine_version)) {
-            if (ids_.insert(id).second) cases_.push_back({id, std::move(prepared), {}});
+            if (ids_.insert(id).second) cases_.push_back({id, std::move(prepared), {}, {}, is_added});
         }
     }
 
@@ -75,7 +75,7 @@ Plan make_plan(scenario::Campaign const& campaign, fs::path const& folder,
                std::string const& engine_version) {
     Planner planner;
     planner.add(campaign.cases, engine_version);
-    planner.add(read_added_cases(folder), engine_version);
+    planner.add(read_added_cases(folder), engine_version, true);
     Plan plan{campaign.name, folder, engine_version, planner.place(folder), campaign.files, campaign.swept};
     label_cases(plan);
     return plan;

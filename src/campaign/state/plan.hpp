@@ -23,6 +23,7 @@ struct PlannedCase {
     /// What distinguishes it from the other cases, such as "throw_number 2, layer.height 12 mm"; empty when
     /// nothing is swept.
     std::string label = {};
+    bool is_added = false;  ///< of the folder "added", not of the campaign file
 
     /// The scenario of the case.
     scenario::Scenario const& scenario() const { return prepared->scenario; }
