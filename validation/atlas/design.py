@@ -14,20 +14,27 @@ RANGES = {
 DIAMETER = 3  # mm, of base.toml
 CHUNK = 16  # layers of a campaign
 SEED = 20261126  # of the layers that judge, and of the Sobol sequences
-# Campaigns of the atlas' own layers: of the additive recurrence, of a Sobol sequence over the whole domain, and of one over the part
-# in which the first campaigns left the largest errors, uphill and weakly thrown.
-RECURRENCE, WHOLE, UPHILL = 5, 4, 2
-UPHILL_PART = {"throw_number": (0.7, 2.2), "tan_inclination": (0.0, 0.1)}
+Part = dict[str, tuple[float, float]]  # ranges that differ from RANGES
+UPHILL: Part = {"throw_number": (0.7, 2.2), "tan_inclination": (0.0, 0.1)}
+USUAL: Part = {"throw_number": (1.0, 2.4)}
+# Campaigns of the atlas' own layers: of the additive recurrence, then of Sobol sequences over the whole domain and over parts of it: that in
+# which the first campaigns left the largest errors, and that in which most troughs run.
+RECURRENCE = 5
+SEQUENCES: list[tuple[int, Part, int]] = [(4, {}, SEED), (2, UPHILL, SEED + 1), (4, USUAL, SEED + 3)]  # campaigns, part, seed
 
 
-def own_layers(campaign: int) -> NDArray[np.float64]:
-    """The layers of a campaign, points of the unit cube."""
-    if campaign < RECURRENCE:
-        return recurrence(CHUNK, CHUNK * campaign)
-    if campaign < RECURRENCE + WHOLE:
-        return sobol(WHOLE * CHUNK, SEED)[CHUNK * (campaign - RECURRENCE) :][:CHUNK]
-    low, high = (np.array([to_unit(name, UPHILL_PART.get(name, RANGES[name])[end]) for name in RANGES]) for end in (0, 1))
-    return low + (high - low) * sobol(UPHILL * CHUNK, SEED + 1)[CHUNK * (campaign - RECURRENCE - WHOLE) :][:CHUNK]
+def own_campaigns() -> list[NDArray[np.float64]]:
+    """The layers of each campaign, points of the unit cube."""
+    found = [recurrence(CHUNK, CHUNK * number) for number in range(RECURRENCE)]
+    for campaigns, part, seed in SEQUENCES:
+        found += np.split(within(part, sobol(CHUNK * campaigns, seed)), campaigns)
+    return found
+
+
+def within(part: Part, unit: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points of the unit cube over a part of the domain as points of that over the whole."""
+    low, high = (np.array([to_unit(name, part.get(name, RANGES[name])[end]) for name in RANGES]) for end in (0, 1))
+    return np.asarray(low + (high - low) * unit)
 
 
 def to_unit(name: str, value: float) -> float:

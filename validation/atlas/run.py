@@ -20,9 +20,8 @@ import figure_style  # noqa: E402
 from campaign_program import campaign_text, run_campaign, toml_value  # noqa: E402
 from validation_case import ValidationCase, read_table  # noqa: E402
 
-CAMPAIGNS = design.RECURRENCE + design.WHOLE + design.UPHILL  # of the atlas' own layers
 HELD_OUT = {"h0": 15, "h1": 15, "h2": 10, "h3": 16, "h4": 16, "h5": 14, "h6": 14}  # campaigns of random layers, and how many each has
-SEEN = 56  # the first of them were known when the atlas was last changed (trend, uphill campaigns, draws); the others judge
+SEEN = 56  # the first of them were known when the surface was chosen (trend, uphill campaigns, draws); the others judge
 # Parts of the domain: what is judged for each, and which layers lie in it.
 REGIONS: dict[str, tuple[str, float, float]] = {
     "no throw": ("throw_number", 0, 1), "near take-off": ("throw_number", 1, 1.2), "thrown": ("throw_number", 1.2, 2.42),
@@ -113,7 +112,7 @@ def is_known(row: list[object]) -> bool:
 
 
 def simulate(run: ValidationCase) -> None:
-    rows = [row for number in range(CAMPAIGNS) for row in layers_at(run, f"p{number}", design.own_layers(number), {})]
+    rows = [row for number, points in enumerate(design.own_campaigns()) for row in layers_at(run, f"p{number}", points, {})]
     run.write_table("layers.csv", COLUMNS, [row for row in rows if is_known(row)])
     run.write_table("apart.csv", COLUMNS, [row for row in rows if not is_known(row)])
     points, held_out, first = design.at_random(sum(HELD_OUT.values())), [], 0

@@ -194,7 +194,7 @@ class DesignReader {
     /// The domain of a surface begins with points that fill it.
     void read_domain(toml::table const& table) {
         campaign_.domain = read_ranges(table, "domain", {"start", "seed"});
-        int const usual = 2 * static_cast<int>(campaign_.domain.size()) + 4;
+        int const usual = 2 * static_cast<int>(campaign_.domain.size()) + 2;
         int const count = table.contains("start") ? whole(table, "domain", "start", 4, 10'000, usual) : usual;
         int const seed = table.contains("seed") ? whole(table, "domain", "seed", 0, 2'147'483'647, 1) : 1;
         add_sample(SampleMethod::sobol, count, seed, campaign_.domain, table);
