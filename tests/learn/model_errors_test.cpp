@@ -91,10 +91,10 @@ TEST(ModelErrors, OfTheLawHoldForGrainsThatRollAgainstFriction) {
             level_held += is_level && is_held ? 1 : 0;
         }
     }
-    EXPECT_EQ(known, 146);
-    EXPECT_EQ(held, 137);
-    EXPECT_EQ(level, 14);
-    EXPECT_EQ(level_held, 10);
+    EXPECT_EQ(known, 185);
+    EXPECT_EQ(held, 174);
+    EXPECT_EQ(level, 19);
+    EXPECT_EQ(level_held, 14);
 }
 
 // The rolling friction that nobody knows is anything that the layers of the atlas have.

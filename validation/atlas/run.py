@@ -45,6 +45,7 @@ SAME: dict[str, dict[str, Any]] = {
     "heavier": {"grains.youngs_modulus": "8 MPa", "grains.density": "2800 kg/m3"},
 }
 PRECISE = {"measure.half_width": 0.05}  # of the layers that judge
+STEADY = ("finished", "not-precise")
 Row = dict[str, str]
 Floats = NDArray[np.float64]
 
@@ -108,7 +109,7 @@ def rolling_layer(run: ValidationCase, place: Sequence[float]) -> str:
 def is_known(row: list[object]) -> bool:
     """Whether a layer is steady, with a mean and an interval, and the law has a mean speed."""
     found = dict(zip(COLUMNS, row, strict=True))
-    return found["outcome"] in ("finished", "not-precise") and all(found[key] != "" for key in ("theory", "rolling_layer", "efficiency", "half_width"))
+    return found["outcome"] in STEADY and all(found[key] != "" for key in ("theory", "rolling_layer", "efficiency", "half_width"))
 
 
 def simulate(run: ValidationCase) -> None:
@@ -178,7 +179,7 @@ def judge_loads(run: ValidationCase) -> dict[str, object]:
 def predict_decisions(run: ValidationCase) -> list[list[object]]:
     """Predictions of the layers that judged the surfaces of validation/decisions, those of them that lie inside of the atlas."""
     folder = FOLDER.parent / "decisions"
-    layers = [row for row in read_table(folder / "held_out.csv") if row["surface"].startswith("24") and row["outcome"] == "finished"]
+    layers = [row for row in read_table(folder / "held_out.csv") if row["surface"].startswith("24") and row["outcome"] in STEADY]
     text = campaign_text(run.sections(str(folder / "base.toml")), {}, {}).replace("[sweep]", "[zip]")
     for key, column in (("trough.throw_number", "throw_number"), ("trough.tan_vibration_angle", "tan_vibration_angle"), ("grains.rolling_friction", "rolling_friction")):
         text += f'"{key}" = {toml_value([float(row[column]) for row in layers])}\n'
