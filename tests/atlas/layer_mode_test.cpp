@@ -11,8 +11,8 @@ namespace vibrotrough::atlas {
 namespace {
 
 // The 100 random layers of validation/atlas are none of those that are asked. A mode that is always the most
-// frequent one (FP'NP) would be right for 47 of them. 78 are right (of the atlas' own layers, each asked of the
-// others, 194 of 240; with 176 layers, 83, which is within what chance does to a hundred); where the five
+// frequent one (FP'NP) would be right for 47 of them. 78 are right (of the atlas' own layers, each asked of
+// the others, 194 of 240; with 176 layers, 83, which is within what chance does to a hundred); where the five
 // layers agree, more often than where they do not. The table is stored, so that the numbers are exact.
 TEST(LayerMode, OfRandomLayersIsMostlyRight) {
     std::ifstream file(VALIDATION_FOLDER "/atlas/held_out.csv");
