@@ -44,11 +44,15 @@ bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::str
     return true;
 }
 
+void tell_of_other_layers(int count) {
+    if (count == 0) return;
+    tell("{} case{} of this folder left out: the campaign file describes another layer now\n", count,
+         count == 1 ? " is" : "s are");
+}
+
 void keep_known_cases(campaign::Plan& plan, scenario::CaseMaker const& maker,
                       std::map<std::string, double> const& wanted) {
-    std::erase_if(plan.cases, [&](campaign::PlannedCase const& one) {
-        return one.is_added && !learn::same_case(one.scenario(), one.id, plan, maker);
-    });
+    tell_of_other_layers(learn::leave_out_other_layers(plan, maker));
     for (auto const& [id, half_width] : wanted) {
         auto const file = plan.folder / "cases" / id / "scenario.toml";
         std::error_code missing;
@@ -56,7 +60,7 @@ void keep_known_cases(campaign::Plan& plan, scenario::CaseMaker const& maker,
         try {
             auto const known = scenario::read_campaign(file).cases;
             if (known.size() != 1) continue;
-            if (auto const now = learn::same_case(known.front(), id, plan, maker))
+            if (auto const now = learn::same_layer(known.front(), id, plan, maker))
                 campaign::add_case(plan, *now);
         } catch (core::Error const&) {  // damaged
         }

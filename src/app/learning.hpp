@@ -21,6 +21,9 @@ int usual_batch(int jobs, campaign::Plan const& plan);
 /// @return whether it came to its end; false when it was interrupted
 bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::string, double>& wanted);
 
+/// Says how many cases of another layer are left out of what is learnt; nothing when there are none.
+void tell_of_other_layers(int count);
+
 /// Keeps the cases that were learnt from before, though the campaign file does not name them any more because
 /// its start was larger. Those of another layer, from before a key outside the domain was edited, are left
 /// out; they stay where they are.

@@ -82,28 +82,38 @@ double distance(atlas::Place const& a, atlas::Place const& b,
 
 }  // namespace
 
-std::optional<scenario::Scenario> same_case(scenario::Scenario const& scenario, std::string const& id,
-                                            campaign::Plan const& plan, scenario::CaseMaker const& maker) {
+std::optional<scenario::Scenario> same_layer(scenario::Scenario const& scenario, std::string const& id,
+                                             campaign::Plan const& plan, scenario::CaseMaker const& maker) {
     std::map<std::string, scenario::Content> values;
     for (std::string const& key : maker.varied_keys())
         if (auto const value = scenario::key_value(scenario, key)) values[key] = *value;
     try {
         auto now = maker.make(values);
+        // How precisely a layer is measured, and what is stored of it, does not make it another one.
+        now.measure = scenario.measure;
+        now.output = scenario.output;
         if (campaign::plan_case(now, plan.folder, plan.engine_version).id == id) return now;
     } catch (core::InputError const&) {  // values that do not go together any more
     }
     return {};
 }
 
+int leave_out_other_layers(campaign::Plan& plan, scenario::CaseMaker const& maker) {
+    return static_cast<int>(std::erase_if(plan.cases, [&](campaign::PlannedCase const& one) {
+        return one.is_added && !same_layer(one.scenario(), one.id, plan, maker);
+    }));
+}
+
 CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker const& maker,
                                std::map<std::string, scenario::Content> const& words) {
-    CampaignTrend const trend(maker, inputs_of(plan, maker, words), words);
-    CampaignPoints found{trend.inputs(), {}, {}, 0, 0, trend.prior()};
-    auto const studied = campaign::read_case_numerics(plan);
-    for (campaign::PlannedCase const& planned : plan.cases) {
+    campaign::Plan known = plan;
+    int const other_layers = leave_out_other_layers(known, maker);
+    CampaignTrend const trend(maker, inputs_of(known, maker, words), words);
+    CampaignPoints found{trend.inputs(), {}, {}, 0, other_layers, 0, trend.prior()};
+    auto const studied = campaign::read_case_numerics(known);
+    for (campaign::PlannedCase const& planned : known.cases) {
         require_steady_drive(planned.scenario(), "a surface");
         if (!has_words(planned.scenario(), words)) continue;
-        if (planned.is_added && !same_case(planned.scenario(), planned.id, plan, maker)) continue;
         auto const place = place_of(planned.scenario(), found.inputs);
         auto const value = place ? trend.efficiency_of(*planned.prepared) : std::nullopt;
         if (!value) continue;

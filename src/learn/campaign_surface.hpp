@@ -26,6 +26,7 @@ struct CampaignPoints {
     std::vector<atlas::SurfacePoint> points;  ///< steady cases with an interval
     std::vector<CaseKeptApart> apart;         ///< bistable and unsteady ones, which are never averaged
     int missing = 0;                          ///< cases without a result
+    int other_layers = 0;  ///< cases left out: they were added before another key was edited
     /// Bound, at 95 %, of the numerical error of the velocity efficiency: the largest of its cases, as
     /// studied by `convergence` or as known beforehand (prepare::numerical_errors). More cases do not make it
     /// smaller.
@@ -33,10 +34,14 @@ struct CampaignPoints {
     atlas::SurfacePrior prior;  ///< of their surface, unless they contradict it (surface_of())
 };
 
-/// What the campaign file gives now for the varied keys of a scenario that was planned as the case `id`;
-/// nothing when that is another layer, because another key was edited since.
-std::optional<scenario::Scenario> same_case(scenario::Scenario const& scenario, std::string const& id,
-                                            campaign::Plan const& plan, scenario::CaseMaker const& maker);
+/// What the campaign file gives now for the varied keys of a scenario that was planned as the case `id`, with
+/// the scenario's own `measure` and `output`; nothing when that is another layer, because another key was
+/// edited since.
+std::optional<scenario::Scenario> same_layer(scenario::Scenario const& scenario, std::string const& id,
+                                             campaign::Plan const& plan, scenario::CaseMaker const& maker);
+
+/// Takes the added cases of other layers out of a plan. @return how many these were
+int leave_out_other_layers(campaign::Plan& plan, scenario::CaseMaker const& maker);
 
 /// The cases of a campaign, sorted into points and what is kept apart. Cases at which the trend has no mean
 /// speed, whose words differ from `words`, or that were added for another layer, are left out.

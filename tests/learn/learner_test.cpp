@@ -68,15 +68,18 @@ TEST_F(LearnedCampaign, AddedCasesOfAnotherLayerAreNoPoints) {
     };
     simulate(*campaign::add_case(plan, at(1.7)), 0.03);
     EXPECT_EQ(campaign_points(plan, *maker).points.size(), 7U);
-    auto const points_after = [&](std::string const& text) {
+    auto const after = [&](std::string const& of, std::string const& by) {
+        std::string text = campaign_of_another_kind;
         auto const file = plan.folder / "edited.toml";
-        std::ofstream(file) << text;
+        std::ofstream(file) << text.replace(text.find(of), of.size(), by);
         auto const edited = campaign::make_plan(scenario::read_campaign(file), plan.folder, "LIGGGHTS 3.8.0");
-        return campaign_points(edited, scenario::CaseMaker(file)).points.size();
+        auto const points = campaign_points(edited, scenario::CaseMaker(file));
+        return std::pair(points.points.size(), points.other_layers);
     };
-    EXPECT_EQ(points_after(campaign_of_another_kind), 7U);
-    std::string other = campaign_of_another_kind;
-    EXPECT_EQ(points_after(other.replace(other.find("friction = 0.23"), 15, "friction = 0.25")), 0U);
+    EXPECT_EQ(after("friction = 0.23", "friction = 0.23"), std::pair(std::size_t{7}, 0));
+    EXPECT_EQ(after("friction = 0.23", "friction = 0.25"), std::pair(std::size_t{0}, 1));
+    // The same layer is measured otherwise: the cases of the start are new, and the added one stays.
+    EXPECT_EQ(after("max_cycles = 200", "max_cycles = 240"), std::pair(std::size_t{1}, 0));
 }
 
 // The loop ends with the half-widths that were asked for.

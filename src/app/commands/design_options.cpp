@@ -2,6 +2,7 @@
 
 #include "app/commands/calibration_options.hpp"
 #include "app/commands/uncertain_options.hpp"
+#include "app/learning.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -82,6 +83,7 @@ learn::DesignModel read_surface(DesignOptions const& o, learn::KnownFriction con
     scenario::CaseMaker const maker(std::filesystem::path(o.surface) / "campaign.toml");
     GivenPlace const given = read_places(o.places, maker);
     learn::CampaignPoints points = learn::campaign_points(plan, maker, given.words);
+    tell_of_other_layers(points.other_layers);
     auto const surface = std::make_shared<atlas::Surface const>(learn::surface_of(points));
     return learn::surface_design_model(surface, learn::CampaignTrend(maker, points.inputs, given.words),
                                        given.numbers, known, points.numerics, discrepancy);

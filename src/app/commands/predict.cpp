@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/commands/predict_layers.hpp"
 #include "app/exit_code.hpp"
+#include "app/learning.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/error.hpp"
 #include "core/outcome.hpp"
@@ -120,7 +121,9 @@ struct FittedSurface {
           trend(maker, points.inputs, words),
           surface(with_trend ? learn::surface_of(points)
                              : atlas::Surface(points.inputs, points.points,
-                                              atlas::SurfacePrior{.trend = atlas::Trend::constant})) {}
+                                              atlas::SurfacePrior{.trend = atlas::Trend::constant})) {
+        tell_of_other_layers(points.other_layers);
+    }
 
     learn::CampaignPoints points;
     learn::CampaignTrend trend;
