@@ -59,8 +59,8 @@ void read_layers(campaign::Plan const& plan, theory::Drive const& drive, Simulat
         double const numerics = study != studied.end()
                                     ? study->second.error
                                     : prepare::numerical_errors(planned.scenario()).total();
-        found.layers.push_back(
-            {drive, friction, *record.estimate.mean, *record.estimate.half_width, numerics});
+        found.layers.push_back({drive, friction, scenario::layer_height(planned.scenario()),
+                                *record.estimate.mean, *record.estimate.half_width, numerics});
     }
 }
 
@@ -101,7 +101,7 @@ std::vector<learn::ComparedLayer> compared(learn::DesignTask const& task,
     std::vector<learn::ComparedLayer> all;
     for (learn::SimulatedLayer const& layer : layers) {
         for (learn::DesignModel const& model : task.models) {
-            auto const said = model.at(layer.drive, layer.friction);
+            auto const said = model.of_layer(layer.depth).at(layer.drive, layer.friction);
             if (!said) continue;
             double const missed = std::hypot(said->statistics_sd, model.missed(layer.drive, {}));
             all.push_back({layer.friction, model.name, said->efficiency,

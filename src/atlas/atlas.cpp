@@ -96,8 +96,8 @@ double carried(prepare::PreparedCase const& p, Place place, double depth) {
 /// the deepest does not move forward. Beyond what the atlas says anything about, it is the depth at the speed
 /// there.
 std::optional<double> fed_depth(prepare::PreparedCase const& p, Place const& place) {
-    auto const [key, least, most] = inputs()[depth_input];
-    double low = least - farthest * (most - least), high = most + farthest * (most - least);
+    SurfaceInput const& input = inputs()[depth_input];
+    double low = input.value_at(-farthest), high = input.value_at(1 + farthest);
     double const shallow = carried(p, place, low), deep = carried(p, place, high);
     if (!(deep > 0)) return {};
     if (shallow > 1) return low / shallow;

@@ -10,16 +10,10 @@
 namespace vibrotrough::atlas {
 
 LikelyMode mode_at(Place const& place) {
-    static Place const lengths = error_lengths();
     static std::vector<LayerMotion> const layers = read_modes(layers_table, "layers.csv");
-    auto const squared_distance = [&](LayerMotion const& layer) {
-        double sum = 0;
-        for (std::size_t k = 0; k < lengths.size(); ++k)
-            sum += std::pow((layer.place[k] - place[k]) / lengths[k], 2);
-        return sum;
-    };
+    auto const distance = [&](LayerMotion const& layer) { return distance_between(layer.place, place); };
     std::vector<LayerMotion> nearest(layers_asked);
-    std::ranges::partial_sort_copy(layers, nearest, {}, squared_distance, squared_distance);
+    std::ranges::partial_sort_copy(layers, nearest, {}, distance, distance);
     auto const agreeing = [&](LayerMotion const& one) {
         return static_cast<int>(std::ranges::count(nearest, one.mode, &LayerMotion::mode));
     };

@@ -11,6 +11,16 @@ constexpr double least_noise = 1e-4;
 
 }  // namespace
 
+double SurfaceInput::share_of(double value) const {
+    if (is_logarithmic) return std::log(value / low) / std::log(high / low);
+    return (value - low) / (high - low);
+}
+
+double SurfaceInput::value_at(double share) const {
+    if (is_logarithmic) return low * std::pow(high / low, share);
+    return low + (high - low) * share;
+}
+
 Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points,
                  std::vector<inference::Hyperparameters> const& draws)
     : inputs_(std::move(inputs)),
@@ -47,7 +57,7 @@ inference::ProcessData Surface::data() const {
 Eigen::VectorXd Surface::scaled(Place const& place) const {
     Eigen::VectorXd x(static_cast<Eigen::Index>(inputs_.size()));
     for (std::size_t k = 0; k < inputs_.size(); ++k)
-        x(static_cast<Eigen::Index>(k)) = (place[k] - inputs_[k].low) / (inputs_[k].high - inputs_[k].low);
+        x(static_cast<Eigen::Index>(k)) = inputs_[k].share_of(place[k]);
     return x;
 }
 

@@ -12,6 +12,14 @@ namespace vibrotrough::atlas {
 struct SurfaceInput {
     std::string key;   ///< path of the key in the campaign file
     double low, high;  ///< ends of the range, SI units, low < high
+    /// Equal ratios of the input, not equal differences, are equally far; low > 0 then.
+    bool is_logarithmic = false;
+
+    /// The share of the range below a value: 0 at its low end, 1 at its high one, and so on beyond them.
+    /// @param value  > 0 where the input is logarithmic
+    double share_of(double value) const;
+    /// The value at a share of the range.
+    double value_at(double share) const;
 };
 
 /// A place: one value per input of the surface, SI units.

@@ -19,7 +19,7 @@ std::vector<Input> unknown_of(KnownNumbers const& numbers) {
 }  // namespace
 
 double middle_of(Input input) {
-    return (inputs()[input].low + inputs()[input].high) / 2;
+    return inputs()[input].value_at(0.5);
 }
 
 double sd_of_unknown(std::span<Input const> unknown, std::optional<std::pair<Input, double>> const& fixed) {
@@ -37,8 +37,7 @@ double sd_of_unknown(std::span<Input const> unknown, std::optional<std::pair<Inp
             for (std::size_t input = 0; input < drive.size(); ++input) {
                 bool const is_unknown =
                     std::find(unknown.begin(), unknown.end(), static_cast<Input>(input)) != unknown.end();
-                auto const [low, high] = std::pair{inputs()[input].low, inputs()[input].high};
-                place.push_back(low + (high - low) * (is_unknown ? other : drive)[input]);
+                place.push_back(inputs()[input].value_at((is_unknown ? other : drive)[input]));
             }
             if (fixed) place[fixed->first] = fixed->second;
             if (auto const efficiency = efficiency_at(place)) found.push_back(*efficiency);

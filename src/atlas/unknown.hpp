@@ -11,7 +11,8 @@
 
 namespace vibrotrough::atlas {
 
-/// The middle of an input's range, which stands for an input that is not known.
+/// The middle of an input's range (of its logarithm where it is scaled so), which stands for an input that is
+/// not known.
 double middle_of(Input input);
 
 /// Standard deviation, in velocity efficiency, that inputs may cause which are not known: the root mean

@@ -53,18 +53,18 @@ std::vector<Outside> outside_ranges(Place const& place) {
     constexpr double rounding = 1e-9;  // of the width of a range
     std::vector<Outside> all;
     for (std::size_t k = 0; k < place.size(); ++k) {
-        auto const& [name, low, high] = inputs()[k];
-        double const room = rounding * (high - low);
-        if (place[k] < low - room || place[k] > high + room)
-            all.push_back({name, range_text(name, place[k], low, high)});
+        SurfaceInput const& input = inputs()[k];
+        double const room = rounding * (input.high - input.low);
+        if (place[k] < input.low - room || place[k] > input.high + room)
+            all.push_back({input.key, range_text(input.key, place[k], input.low, input.high)});
     }
     return all;
 }
 
 bool is_far_outside(Place const& place) {
     for (std::size_t k = 0; k < place.size(); ++k) {
-        auto const& [name, low, high] = inputs()[k];
-        if (std::max(low - place[k], place[k] - high) > farthest * (high - low)) return true;
+        double const share = inputs()[k].share_of(place[k]);
+        if (!(share >= -farthest && share <= 1 + farthest)) return true;
     }
     return false;
 }
@@ -84,17 +84,27 @@ double numerical_error() {
     return mean;
 }
 
-Place error_lengths() {
+std::vector<double> error_lengths() {
     auto const draws = surface().draws();
-    Place lengths;
+    std::vector<double> lengths;
     for (std::size_t k = 0; k < inputs().size(); ++k) {
         std::vector<double> all;
         for (inference::Hyperparameters const& draw : draws)
             all.push_back(draw.lengths(static_cast<Eigen::Index>(k)));
         std::sort(all.begin(), all.end());
-        lengths.push_back(all[all.size() / 2] * (inputs()[k].high - inputs()[k].low));
+        lengths.push_back(all[all.size() / 2]);
     }
     return lengths;
+}
+
+double distance_between(Place const& one, Place const& other) {
+    static std::vector<double> const lengths = error_lengths();
+    double squares = 0;
+    for (std::size_t k = 0; k < lengths.size(); ++k) {
+        SurfaceInput const& input = inputs()[k];
+        squares += std::pow((input.share_of(one[k]) - input.share_of(other[k])) / lengths[k], 2);
+    }
+    return std::sqrt(squares);
 }
 
 std::optional<double> efficiency_at(Place const& place) {

@@ -16,7 +16,7 @@ namespace vibrotrough::atlas {
 /// Something of a case that the atlas does not cover.
 struct Outside {
     std::string name;  ///< of an input of the atlas, or the key of the campaign file
-    std::string why;   ///< such as "depth 14 (the atlas has 3 to 6)"
+    std::string why;   ///< such as "depth 30 (the atlas has 3 to 20)"
 };
 
 /// Further beyond a range than this, in widths of it, the atlas says nothing at all.
@@ -30,8 +30,11 @@ int simulated_layers();
 double numerical_error();
 
 /// The lengths over which the error of the rolling-layer law changes, as the layers of the atlas tell:
-/// medians of the draws of its process, one for each of inputs() (tables.hpp) and in its unit.
-Place error_lengths();
+/// medians of the draws of its process, one for each of inputs() (tables.hpp), in widths of its range.
+std::vector<double> error_lengths();
+
+/// How far two places are apart, in the lengths over which the error of the law changes.
+double distance_between(Place const& one, Place const& other);
 
 /// What the atlas says of a place: the numbers without a dimension of inputs() (tables.hpp), in their order.
 /// Nothing when theory or law have no mean speed there. The half-width contains what the layers scatter
@@ -54,7 +57,7 @@ bool is_far_outside(Place const& place);
 /// The nearest place within the ranges of the atlas.
 Place within_ranges(Place place);
 
-/// What is said of a number outside of its range: "depth 14 (the atlas has 3 to 6)".
+/// What is said of a number outside of its range: "depth 30 (the atlas has 3 to 20)".
 std::string range_text(std::string_view name, double value, double low, double high);
 
 }  // namespace vibrotrough::atlas

@@ -36,10 +36,14 @@ std::vector<OpenInput> open_inputs(KnownGrains const& grains) {
     auto const one = [&](atlas::Input input, char const* name, std::optional<Uncertain> const& given) {
         return OpenInput{input, name, given ? *given : anything(input), given ? nullptr : "not given"};
     };
+    auto const depths = range_of(atlas::depth_input);
+    Uncertain const depth =
+        grains.depth ? Uncertain{std::clamp(*grains.depth / grains.diameter, depths.low, depths.high)}
+                     : anything(atlas::depth_input);
     return {one(atlas::rolling_friction_input, "rolling friction", grains.rolling_friction),
             one(atlas::grain_friction_input, "friction between grains", grains.friction),
             one(atlas::restitution_input, "restitution", {}),
-            {atlas::depth_input, "depth of the layer in diameters", anything(atlas::depth_input), "atlas"}};
+            {atlas::depth_input, "depth of the layer in diameters", depth, "atlas"}};
 }
 
 /// The place of a drive, with what is not exact at its mean.
@@ -57,8 +61,8 @@ atlas::Place place_of(theory::Drive const& d, double mu, double diameter,
 
 /// By how much a place is beyond a range, relative to its width; at most zero inside.
 double beyond(atlas::Input input, double value) {
-    auto const [low, high] = range_of(input);
-    return std::max(low - value, value - high) / (high - low);
+    double const share = atlas::inputs()[input].share_of(value);
+    return std::max(-share, share - 1);
 }
 
 /// Standard deviation of the efficiency when one input is not exact, within the range of the atlas.
@@ -161,6 +165,11 @@ DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy, do
         if (deep && beyond(atlas::depth_input, *deep) > 0)
             return tell("depth in diameters", atlas::depth_input, *deep);
         return {};
+    };
+    model.with_depth = [grains, discrepancy, friction](double depth) {
+        KnownGrains layer = grains;
+        layer.depth = depth;
+        return atlas_design_model(layer, discrepancy, friction);
     };
     return model;
 }

@@ -99,7 +99,6 @@ atlas::SurfacePrior CampaignTrend::prior() const {
     known.resize(inputs_.size());  // nothing of an input of which the atlas says nothing
     prior.least_deviation = least_difference;
     prior.longest.assign(inputs_.size(), atlas::usual_longest_length);
-    atlas::Place const lengths = atlas::error_lengths();
     atlas::Place middle;
     for (atlas::SurfaceInput const& input : inputs_) middle.push_back(within(input, 0.5));
     for (std::size_t k = 0; k < inputs_.size(); ++k) {
@@ -108,12 +107,10 @@ atlas::SurfacePrior CampaignTrend::prior() const {
         high[k] = within(inputs_[k], 1 - margin);
         try {
             auto const from = atlas_place_at(low), to = atlas_place_at(high);
-            double squares = 0;
-            for (std::size_t j = 0; from && to && j < lengths.size(); ++j)
-                squares += std::pow(((*to)[j] - (*from)[j]) / lengths[j], 2);
+            double const distance = from && to ? atlas::distance_between(*from, *to) : 0;
+            if (!(distance > 0)) continue;
             // So many lengths of the atlas wide is the range.
-            double const lengths_wide = std::sqrt(squares) / (1 - 2 * margin);
-            if (!(squares > 0)) continue;
+            double const lengths_wide = distance / (1 - 2 * margin);
             prior.longest[k] =
                 std::clamp(part_of_lengths / lengths_wide, shortest_length, atlas::usual_longest_length);
             known[k] = {prior.longest[k], sd_of_lengths};

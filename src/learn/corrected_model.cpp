@@ -23,21 +23,20 @@ constexpr double known_share = 0.5;
 /// other.
 constexpr double least_noise = 1e-3;
 
+/// The first of those of the atlas: throw number, tan(beta), tan(alpha), friction, amplitude over diameter.
 constexpr Eigen::Index input_count = 5;
 
+/// A drive and its layer, each input in the lengths over which the error of the law changes.
 Eigen::VectorXd place_of(theory::Drive const& d, double friction, double diameter) {
+    static auto const lengths = atlas::error_lengths();
     Eigen::VectorXd place(input_count);
     place << d.throw_number(), std::tan(d.vibration_angle), std::tan(d.inclination), friction,
         d.amplitude / diameter;
+    for (Eigen::Index k = 0; k < input_count; ++k) {
+        auto const input = static_cast<std::size_t>(k);
+        place(k) = atlas::inputs()[input].share_of(place(k)) / lengths[input];
+    }
     return place;
-}
-
-Eigen::VectorXd lengths() {
-    atlas::Place const all = atlas::error_lengths();
-    Eigen::VectorXd lengths(input_count);
-    lengths << all[atlas::throw_number_input], all[atlas::tan_vibration_input],
-        all[atlas::tan_inclination_input], all[atlas::friction_input], all[atlas::amplitude_input];
-    return lengths;
 }
 
 /// A model and what simulated layers say of its error, in units of the error that it expects.
@@ -77,7 +76,7 @@ class Correction {
         std::vector<SimulatedLayer> known;
         std::vector<ModelEfficiency> said;
         for (SimulatedLayer const& layer : layers) {
-            auto const value = model_.at(layer.drive, layer.friction);
+            auto const value = model_.of_layer(layer.depth).at(layer.drive, layer.friction);
             if (!value) continue;
             known.push_back(layer);
             said.push_back(*value);
@@ -98,7 +97,7 @@ class Correction {
         }
         return {data,
                 {Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, std::sqrt(common_share))},
-                {std::sqrt(1 - common_share), lengths(), 0}};
+                {std::sqrt(1 - common_share), Eigen::VectorXd::Ones(input_count), 0}};
     }
 
     DesignModel model_;
@@ -124,6 +123,10 @@ DesignModel corrected_design_model(DesignModel const& model, std::vector<Simulat
     corrected.known_range = model.known_range;
     corrected.is_slow = model.is_slow;
     corrected.remarks = model.remarks;
+    if (model.with_depth)
+        corrected.with_depth = [model, layers, diameter](double depth) {
+            return corrected_design_model(model.of_layer(depth), layers, diameter);
+        };
     return corrected;
 }
 

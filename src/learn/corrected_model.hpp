@@ -13,6 +13,7 @@ inline constexpr double common_share = 0.5;
 struct SimulatedLayer {
     theory::Drive drive;           ///< of the machine
     double friction;               ///< of the material on the trough
+    double depth;                  ///< m
     double efficiency;             ///< velocity efficiency
     double statistics_half_width;  ///< of its 95 % interval, without numerical errors
     double numerical_error;        ///< their bound, at 95 %
@@ -28,7 +29,7 @@ struct SimulatedLayer {
 /// slow for a layer here is mostly so there, too. Conditioned on the layers it is small where they were
 /// simulated, and the model's own elsewhere.
 ///
-/// The depth of the layer is not among the inputs: layers of one drive at several depths are averaged.
+/// What the model misses does not depend on the depth of the layer: at one drive it is averaged over depths.
 ///
 /// The error counts as known where the layers have halved its standard deviation; elsewhere as the model
 /// says.

@@ -55,7 +55,12 @@ struct DesignModel {
                                              std::optional<double> depth)>
         outside = {};
     std::vector<std::string> remarks = {};  ///< what speaks against it, in whole sentences
+    /// The model for a layer of a depth in m; empty where what it says does not depend on the depth. The
+    /// model itself does not know how deep the layer is.
+    std::function<DesignModel(double depth)> with_depth = {};
 
+    /// The model for a layer of a depth in m, > 0.
+    DesignModel of_layer(double depth) const { return with_depth ? with_depth(depth) : *this; }
     /// Standard deviation of what it misses at a drive; where nothing is known, the largest that is.
     /// @param depth  of the layer, in diameters of its grains, if it is known
     double missed(theory::Drive const& drive, std::optional<double> depth) const;
@@ -70,7 +75,7 @@ struct DesignModel {
 DesignModel point_mass_design_model(std::optional<double> discrepancy = {});
 
 /// The law of rolling layers, where it has been tested. The grains' rolling friction is added to its dry
-/// torque, which holds for layers in 174 of 185 cases within 1.96 of the errors of validation/model_errors
+/// torque, which holds for layers in 174 of 186 cases within 1.96 of the errors of validation/model_errors
 /// (validation/atlas, rolling friction of 0.03 to 0.2). What is not known of it is one of the `sources`.
 /// @param rolling_friction  of the grains, >= 0; nothing: unknown_rolling_friction()
 /// @param discrepancy       nothing: as validation/model_errors says

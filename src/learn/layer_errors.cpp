@@ -32,10 +32,8 @@ class LayerOfTheCube {
     /// @param mean_amplitude  m, of all measurements, which the layer's amplitude in diameters belongs to
     atlas::Place place_at(MeasuredSpeed const& one, double mean_amplitude) const {
         atlas::Place place;
-        for (std::size_t input = 0; input < cube_.size(); ++input) {
-            auto const [key, low, high] = atlas::inputs()[input];
-            place.push_back(low + (high - low) * cube_[input]);
-        }
+        for (std::size_t input = 0; input < cube_.size(); ++input)
+            place.push_back(atlas::inputs()[input].value_at(cube_[input]));
         double const alpha =
             angle("inclination", atlas::tan_inclination_input).value_or(one.inclination.value_or(0));
         double const beta = angle("vibration_angle", atlas::tan_vibration_input)

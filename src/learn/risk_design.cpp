@@ -23,6 +23,8 @@ constexpr double near_limit = 0.01;     // relative: a limit so close counts as 
 constexpr double depth_step = 1e-4;     // m, to which the depth is rounded up
 constexpr double largest_loss = 0.005;  // of the merit, by rounding the drive
 constexpr int exchanges = 8;
+constexpr double same_depth = 0.02;  // relative, between the layer of a design and that of its models
+constexpr int most_depths = 8;
 constexpr int corrections = 3;             // of what the search expects of the sure speed
 constexpr double least_draws_in_tail = 5;  // of a posterior, beyond the confidence
 
@@ -231,7 +233,7 @@ RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive c
     }
     for (DesignModel const& model : task.beside)
         if (model.is_point_mass || model.excess(drive) <= 0)
-            d.beside.push_back(forecast(search, model, drive, d.depth));
+            d.beside.push_back(forecast(search, model.of_layer(d.depth), drive, d.depth));
     d.feasible = d.feasible && !d.untested;
     if (!d.feasible && !d.untested && d.sure_speed > 0)
         d.width_needed = task.mass_flow / (task.bulk_density * task.depth.high * d.sure_speed);
@@ -244,8 +246,14 @@ RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive c
     return d;
 }
 
-/// The best machine whose speed of the drive may be anything within its range.
-RiskDesign design_at_any_speed(DesignTask const& task) {
+/// The same task with models that know how deep the layer is, in m.
+DesignTask at_depth(DesignTask task, double depth) {
+    for (DesignModel& model : task.models) model = model.of_layer(depth);
+    return task;
+}
+
+/// The best machine whose speed of the drive may be anything within its range, by models as they are.
+RiskDesign design_by_these(DesignTask const& task) {
     theory::DriveSpace const space = allowed_space(task);
     // The search begins at the least vigorous drive.
     theory::Drive const weakest{space.frequency.low, space.amplitude.low, space.vibration_angle.low,
@@ -260,6 +268,22 @@ RiskDesign design_at_any_speed(DesignTask const& task) {
     }
     return described(task, search,
                      rounded(search, *fastest, reaches ? task.objective : Objective::fastest, reaches));
+}
+
+/// The best machine whose speed of the drive may be anything within its range, by models that know the depth
+/// of the layer which carries the mass flow.
+RiskDesign design_at_any_speed(DesignTask const& task) {
+    if (std::ranges::none_of(task.models, [](DesignModel const& m) { return bool(m.with_depth); }))
+        return design_by_these(task);
+    double depth = std::sqrt(task.depth.low * task.depth.high);
+    RiskDesign found = design_by_these(at_depth(task, depth));
+    for (int i = 1; i < most_depths && std::abs(found.depth / depth - 1) > same_depth; ++i) {
+        depth = found.depth;
+        found = design_by_these(at_depth(task, depth));
+    }
+    if (std::abs(found.depth / depth - 1) <= same_depth) return found;
+    // Two machines with other depths in turn: what the models say of the last one with its own.
+    return judge_machine(task, found.drive, found.depth);
 }
 
 /// How good a machine is, to be compared with one for another speed of the drive: first whether it reaches
@@ -361,7 +385,7 @@ RiskDesign design_with_risk(DesignTask const& task) {
 
 RiskDesign judge_machine(DesignTask const& task, theory::Drive const& drive, double depth) {
     check(task);
-    DesignTask one = task;
+    DesignTask one = at_depth(task, depth);
     if (!one.frequencies.empty()) one.space.frequency = {drive.frequency, drive.frequency};
     if (!one.amplitudes.empty()) one.space.amplitude = {drive.amplitude, drive.amplitude};
     RiskSearch search(one, allowed_space(one));

@@ -130,6 +130,9 @@ struct RiskDesign {
 /// the median of the friction. The speed that is reached with the stated confidence is a quantile of this
 /// distribution, the least of all models'.
 ///
+/// A model that depends on the depth of the layer is asked for the depth of the design: the search is
+/// repeated until both agree within 2 %.
+///
 /// The drive is searched for by theory::best_drive(): first the fastest; if that reaches the mass flow at the
 /// largest depth, the best one of those that do. It is then rounded to steps of 1/min, 0.1 mm of stroke
 /// and half a degree, or finer ones where these cost more than half a percent. Every limit is kept by

@@ -48,7 +48,7 @@ TEST(Atlas, PredictsALayerInsideOfIt) {
 
 // Each case changes one line of a layer that lies inside.
 TEST(Atlas, NamesWhatLiesOutside) {
-    EXPECT_EQ(names_outside(with("height = \"12 mm\"", "height = \"42 mm\"", inside_layer)), Names{"depth"});
+    EXPECT_EQ(names_outside(with("height = \"12 mm\"", "height = \"69 mm\"", inside_layer)), Names{"depth"});
     EXPECT_EQ(names_outside(with("throw_number = 2.0", "throw_number = 3.5", inside_layer)),
               Names{"throw_number"});
     EXPECT_EQ(names_outside(with("diameter_spread = 0.1", "diameter_spread = 0", inside_layer)),
@@ -103,14 +103,16 @@ TEST(Atlas, TheFeedMakesTheDepth) {
 }
 
 TEST(Atlas, AFedLayerMayBeTooShallowOrTooDeepForIt) {
-    for (auto const& [flow, low, high] :
-         {std::tuple{"0.02 t/h", 0.1, 0.5}, std::tuple{"0.6 t/h", 7.0, 20.0}}) {
-        Answer const answer = answer_of(fed(flow));
-        EXPECT_FALSE(answer.efficiency.has_value() || answer.fed_depth.has_value()) << flow;
-        ASSERT_EQ(names_outside(fed(flow)), Names{"depth"}) << flow;
+    std::string const much =
+        with("200 mm", "400 mm", with("length = \"60 mm\"", "length = \"160 mm\"", fed("3 t/h")));
+    for (auto const& [layer, low, high] :
+         {std::tuple{fed("0.02 t/h"), 0.1, 0.5}, std::tuple{much, 32.0, 100.0}}) {
+        Answer const answer = answer_of(layer);
+        EXPECT_FALSE(answer.efficiency.has_value() || answer.fed_depth.has_value()) << layer;
+        ASSERT_EQ(names_outside(layer), Names{"depth"}) << layer;
         double const depth = std::stod(answer.outside.front().why.substr(6));
-        EXPECT_GT(depth, low) << flow;
-        EXPECT_LT(depth, high) << flow;
+        EXPECT_GT(depth, low) << layer;
+        EXPECT_LT(depth, high) << layer;
     }
     std::string const rough = with("side_wall_friction = 0", "side_wall_friction = 0.2", fed("0.25 t/h"));
     EXPECT_EQ(names_outside(rough), Names{"trough.side_wall_friction"});
@@ -217,7 +219,7 @@ TEST(Atlas, TellsWhatDepthAndSlopeChange) {
         effects_of(with("inclination = \"0 deg\"", "tan_inclination = 0.05", inside_layer)).value();
     // The difference from the point mass: without what the slope does to both.
     EXPECT_LT(std::abs(uphill.of_slope->efficiency), 0.3);
-    EXPECT_FALSE(effects_of(with("height = \"12 mm\"", "height = \"42 mm\"", inside_layer)).has_value());
+    EXPECT_FALSE(effects_of(with("height = \"12 mm\"", "height = \"69 mm\"", inside_layer)).has_value());
 }
 
 // Every simulated layer lies within the interval that the surface has at its own place, but for the share

@@ -50,6 +50,21 @@ int covered(Surface const& surface, std::vector<SurfacePoint> const& held_out) {
     return inside;
 }
 
+// A range of ratios: the middle of 3 to 20 is the root of 60, and shares go on beyond both ends. Tolerance:
+// rounding.
+TEST(SurfaceInput, MayCountByItsLogarithm) {
+    SurfaceInput const depth{"depth", 3, 20, true}, friction{"friction", 0.2, 0.6};
+    EXPECT_NEAR(depth.value_at(0.5), std::sqrt(60), 1e-12);
+    EXPECT_NEAR(friction.value_at(0.5), 0.4, 1e-15);
+    for (double const value : {0.1, 3.0, 7.0, 20.0, 30.0}) {
+        EXPECT_NEAR(depth.value_at(depth.share_of(value)), value, 1e-12);
+        EXPECT_NEAR(friction.value_at(friction.share_of(value)), value, 1e-12);
+    }
+    EXPECT_EQ(depth.share_of(3), 0);
+    EXPECT_EQ(depth.share_of(20), 1);
+    EXPECT_LT(depth.share_of(2), 0);
+}
+
 // 95 % of new measurements lie within the intervals: 190 of 200 +- 2 * 3, and as they share one surface, 180
 // (90 %) to 200 are accepted.
 TEST(Surface, CoversHeldOutPoints) {

@@ -120,7 +120,7 @@ std::vector<std::string> const contract{"case",
                                         "underflow_t_per_h",
                                         "underflow_half_width_t_per_h"};
 
-/// What is known of a case before it has a result: its drive and the theory.
+/// What is known of a case before it has a result: its drive, the theory and the atlas.
 std::set<std::string> const known_before{"case",
                                          "throw_number",
                                          "machine_number",
@@ -133,6 +133,8 @@ std::set<std::string> const known_before{"case",
                                          "turns_per_minute",
                                          "efficiency_theory",
                                          "efficiency_rolling_layer",
+                                         "efficiency_atlas",
+                                         "efficiency_atlas_half_width",
                                          "mode_theory",
                                          "outcome"};
 

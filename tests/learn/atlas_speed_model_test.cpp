@@ -96,10 +96,10 @@ TEST(AtlasSpeedModel, RefusesWhatTheAtlasDoesNotHave) {
         [&] { atlas_speed_model(diameter, {"mass"}, known_layer(), speeds); },
         testing::ThrowsMessage<core::InputError>(testing::HasSubstr("not a quantity of a layer of spheres")));
     auto deep = known_layer();
-    deep["depth"] = 12;
+    deep["depth"] = 24;
     EXPECT_THAT(
         [&] { atlas_speed_model(diameter, {"friction"}, deep, speeds); },
-        testing::ThrowsMessage<core::InputError>(testing::HasSubstr("depth=12: the atlas has 3 to 6")));
+        testing::ThrowsMessage<core::InputError>(testing::HasSubstr("depth=24: the atlas has 3 to 20")));
     speeds[1].amplitude = 10 * diameter;
     EXPECT_THAT([&] { atlas_speed_model(diameter, {"friction"}, known_layer(), speeds); },
                 testing::ThrowsMessage<core::InputError>(

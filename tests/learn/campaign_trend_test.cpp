@@ -77,11 +77,13 @@ TEST(CampaignTrend, OfTheAtlasBringsItsPrior) {
     EXPECT_EQ(prior.least_deviation, 0.02);
     EXPECT_EQ(prior.offset_sd, 0.05);
     EXPECT_EQ(prior.slope_sd, 0.2);
-    atlas::Place const lengths = atlas::error_lengths();
+    auto const lengths = atlas::error_lengths();
     for (std::size_t k = 0; k < 2; ++k) {
         auto const& input = trend.inputs()[k];
-        double const length = lengths[input.key == "trough.throw_number" ? atlas::throw_number_input
-                                                                         : atlas::rolling_friction_input];
+        auto const in_atlas =
+            input.key == "trough.throw_number" ? atlas::throw_number_input : atlas::rolling_friction_input;
+        auto const& range = atlas::inputs()[in_atlas];
+        double const length = lengths[in_atlas] * (range.high - range.low);
         EXPECT_NEAR(prior.longest[k] * (input.high - input.low), 0.7 * length, 0.01 * length);
         EXPECT_EQ(prior.about_trend.lengths[k].value().median, prior.longest[k]);
     }

@@ -24,7 +24,8 @@ theory::Drive machine(double throw_number = 2) {
 
 /// A layer that is faster than the model says by `more`.
 SimulatedLayer layer(DesignModel const& model, double more, double half_width, double friction = 0.3) {
-    return {machine(), friction, model.at(machine(), friction)->efficiency + more, half_width, 0.02};
+    return {machine(),  friction, 4 * grain, model.at(machine(), friction)->efficiency + more,
+            half_width, 0.02};
 }
 
 // Where a layer was simulated, the model is what the layer is: posterior mean of a normal prior of variance
@@ -61,6 +62,29 @@ TEST(CorrectedModel, LayersOfOnePlaceAreAveraged) {
                  sd_of_four = corrected_design_model(model, four, grain).at(machine(), 0.3)->statistics_sd;
     EXPECT_LT(sd_of_four, 0.6 * sd_of_one);
     EXPECT_GT(sd_of_four, 0.4 * sd_of_one);
+}
+
+// What a layer tells of the error of a model that knows its depth is told at its own depth, and holds at
+// others: the model is 0.1 slower for each diameter of depth, and the layer 0.05 faster than it. Tolerance:
+// rounding.
+TEST(CorrectedModel, IsToldTheErrorAtTheDepthOfTheLayer) {
+    std::function<DesignModel(double)> const of_depth = [&](double depth) {
+        DesignModel model = point_mass_design_model(0.1);
+        auto const shallow = model.at;
+        model.at = [shallow, depth](theory::Drive const& d, double friction) {
+            auto value = shallow(d, friction);
+            value->efficiency -= 0.1 * (depth / grain - 4);
+            return value;
+        };
+        model.with_depth = of_depth;
+        return model;
+    };
+    DesignModel const model = of_depth(0);
+    DesignModel const corrected = corrected_design_model(model, {layer(of_depth(4 * grain), 0.05, 0)}, grain);
+    for (double const depth : {4 * grain, 6 * grain}) {
+        double const before = model.of_layer(depth).at(machine(), 0.3)->efficiency;
+        EXPECT_NEAR(corrected.of_layer(depth).at(machine(), 0.3)->efficiency, before + 0.05, 1e-6);
+    }
 }
 
 // The law has not been tested in a layer 20 diameters deep; a layer that was simulated there tells its error.

@@ -71,7 +71,7 @@ TEST(DrivenDesign, AddedMassIsThatOfTheAtlas) {
                 0.3 * json.at("power_w").get<double>());
     EXPECT_GT(json.at("power_by_atlas_half_width").get<double>(), 0);
     EXPECT_THAT(design_text(found.task, found.design), testing::HasSubstr(" W by the atlas of layers"));
-    found.task.grain_diameter = 0.001;  // 18 grains: deeper than the layers of the atlas
+    found.task.grain_diameter = 0.0008;  // 22 grains: deeper than the layers of the atlas
     settle_load(found.task, found.design);
     EXPECT_EQ(machine.added_mass_source, AddedMassSource::maker);
     EXPECT_NEAR(machine.added_mass.mean, 0.175, 1e-12);

@@ -56,8 +56,8 @@ struct DataSet {
 DataSet data_set(Truth truth, std::vector<double> const& throw_numbers, std::mt19937_64& random) {
     std::normal_distribution<double> normal;
     atlas::Place place;
-    for (auto const& [key, low, high] : atlas::inputs())
-        place.push_back(std::uniform_real_distribution<double>(low, high)(random));
+    for (atlas::SurfaceInput const& input : atlas::inputs())
+        place.push_back(input.value_at(std::uniform_real_distribution<double>(0, 1)(random)));
     double const beta = std::atan(place[atlas::tan_vibration_input]);
     double const alpha = std::atan(place[atlas::tan_inclination_input]);
     DataSet made{settings_at(throw_numbers, beta, alpha), place[atlas::friction_input]};
@@ -112,8 +112,8 @@ Eigen::MatrixXd mean_squares(std::vector<double> const& throw_numbers) {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(count, count);
     for (int layer = 0; layer < layers; ++layer) {
         atlas::Place place;
-        for (auto const& [key, low, high] : atlas::inputs())
-            place.push_back(std::uniform_real_distribution<double>(low, high)(random));
+        for (atlas::SurfaceInput const& input : atlas::inputs())
+            place.push_back(input.value_at(std::uniform_real_distribution<double>(0, 1)(random)));
         place[1] = std::tan(30 * degree);
         place[2] = 0;
         Eigen::VectorXd errors(count);

@@ -47,7 +47,7 @@ TEST(ModelChoice, TheAtlasDecidesWhereItKnowsTheLayer) {
     EXPECT_THAT(names(design.forecasts), ElementsAre("the atlas"));
     EXPECT_THAT(names(design.beside), ElementsAre("the rolling-layer law", "the point mass"));
     EXPECT_GE(design.depth, 3 * pellet);
-    EXPECT_LE(design.depth, 6 * pellet);
+    EXPECT_LE(design.depth, 20 * pellet);
     EXPECT_THAT(design_text(task, design), HasSubstr("beside it, for comparison:\nthe rolling-layer law"));
     auto const json = design_json(task, design);
     EXPECT_EQ(json.at("models_beside").at(1).at("model"), "the point mass");
@@ -56,17 +56,14 @@ TEST(ModelChoice, TheAtlasDecidesWhereItKnowsTheLayer) {
                 testing::AllOf(HasSubstr("less than the atlas says"), HasSubstr("at throw number 1.88")));
 }
 
-// The layer that carries 12 t/h is three times as deep as those of the atlas. The law was tested there at
-// throw numbers up to 1.9 alone.
-TEST(ModelChoice, ADeepLayerIsTheLaws) {
+// The layer that carries 12 t/h is deep, and within the atlas.
+TEST(ModelChoice, ADeepLayerIsTheAtlasToo) {
     auto const [task, design] = design_by_known_model(trough_of_pellets(12), all_models());
     EXPECT_TRUE(design.feasible);
-    EXPECT_THAT(names(design.forecasts), ElementsAre("the rolling-layer law"));
-    EXPECT_LE(design.throw_number, 1.9 + 1e-9);
+    EXPECT_THAT(names(design.forecasts), ElementsAre("the atlas"));
     EXPECT_GT(design.depth, 12 * pellet);
-    EXPECT_THAT(design.warnings,
-                ElementsAre("The atlas does not decide: its layers are up to 21 mm deep, and none carries so "
-                            "much so surely."));
+    EXPECT_LE(design.depth, 20 * pellet);
+    EXPECT_THAT(design.warnings, testing::IsEmpty());
 }
 
 // Where none does it, the deepest layers that are known say how wide a trough would.

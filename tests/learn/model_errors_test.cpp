@@ -91,9 +91,9 @@ TEST(ModelErrors, OfTheLawHoldForGrainsThatRollAgainstFriction) {
             level_held += is_level && is_held ? 1 : 0;
         }
     }
-    EXPECT_EQ(known, 185);
+    EXPECT_EQ(known, 186);
     EXPECT_EQ(held, 174);
-    EXPECT_EQ(level, 19);
+    EXPECT_EQ(level, 20);
     EXPECT_EQ(level_held, 14);
 }
 

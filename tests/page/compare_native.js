@@ -29,7 +29,7 @@ function randomSettings() {
     const stroke = between(1, 20), rpm = 30 / Math.PI * Math.sqrt(between(0.2, 9) * 9.81 / (stroke / 2000));
     const drive = atlas ? [between(17, 45), between(-5.5, 5.5), between(0.15, 0.6)] : [between(5, 60), between(-8, 8), between(0.05, 0.9)];
     const frictions = [random() < 0.3 ? 0 : between(0, 0.05), random() < 0.5 ? 0 : between(0, atlas ? 0.2 : 0.3)];
-    const grain = atlas ? stroke / between(1, 8) : between(0.5, 10), depth = atlas ? grain * between(3, 6) : between(2, 120);
+    const grain = atlas ? stroke / between(1, 8) : between(0.5, 10), depth = atlas ? grain * between(3, 20) : between(2, 120);
     return [stroke, rpm, ...drive, ...frictions, grain, depth, between(50, 2000), between(200, 3000)];
   };
   return Float64Array.from(Array.from({ length: COUNT }, one).flat());

@@ -87,7 +87,7 @@ class PageTest(PageCase):
         left, right = (b.run(f"document.querySelector('#curve .band.{of}').getBBox().x") for of in ("of-models", "of-atlas"))
         self.assertLess(left, right)
         self.assertIn("there the atlas answers", b.text("gap-text"))
-        self.go("grain_mm=3&depth_mm=60&rpm=960")
+        self.go("grain_mm=3&depth_mm=120&rpm=960")
         b.wait("document.documentElement.dataset.complete === 'true'")
         self.assertEqual((b.text("gap-text"), b.run("document.querySelector('#curve .band.of-atlas').getAttribute('d')")), ("", ""))
 
@@ -99,7 +99,7 @@ class PageTest(PageCase):
             stroke, machine_number = round(2 * grain * draw.uniform(0.6, 2), 1), draw.uniform(1.8, 4.5)
             one = {"stroke_mm": stroke, "rpm": round(945.8 * (machine_number / (stroke / 2)) ** 0.5), "vibration_angle_deg": round(draw.uniform(20, 40)),
                    "inclination_deg": round(draw.uniform(-5, 5), 1), "friction": round(draw.uniform(0.2, 0.55), 2), "friction_band": 0,
-                   "rolling_friction": draw.choice([0, 0.05, 0.15, 0.3]), "grain_mm": grain, "depth_mm": round(grain * draw.uniform(2.5, 6.5), 1),
+                   "rolling_friction": draw.choice([0, 0.05, 0.15, 0.3]), "grain_mm": grain, "depth_mm": round(grain * draw.uniform(2.5, 22), 1),
                    "width_mm": 450, "bulk_density": 700}
             self.go("&".join(f"{name}={value}" for name, value in one.items()))
             said = self.predicted()

@@ -30,7 +30,7 @@ const sentences = ["the rolling-layer law has not been tested at tan_vibration_a
   "the rolling-layer law has not been tested at a depth in diameters of the grains = 40, outside [3, 16]",
   "the rolling-layer law has not been tested at throw_number = 0.9, tan_inclination = 0.02 (1.146 deg), a depth in diameters of the grains = 4, where it has been for throw numbers in [1.3, 2.5]",
   "the rolling-layer law has not been tested at throw_number = 2, tan_inclination = 0.07 (4.004 deg), a depth in diameters of the grains = 12",
-  "rolling_friction 0.25 (the atlas has 0 to 0.2)", "depth 14 (the atlas has 3 to 6)",
+  "rolling_friction 0.25 (the atlas has 0 to 0.2)", "depth 30 (the atlas has 3 to 20)",
   "the material runs away", "no simulated layer tells what the model misses here",
   "a frequency of 960 Hz is unusual: vibrating troughs run at 1 to 120 Hz; were 960 turns per minute meant (rpm)?",
   "a frequency of 0.5 Hz is unusual: vibrating troughs run at 1 to 120 Hz; were 30 Hz meant, not rpm?",

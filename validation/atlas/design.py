@@ -9,23 +9,25 @@ from scipy.stats import qmc
 # Inputs without a dimension and their ranges: those of src/atlas/tables.cpp, as a test of the atlas makes sure.
 RANGES = {
     "throw_number": (0.7, 3.2), "tan_vibration_angle": (0.3, 1.0), "tan_inclination": (-0.1, 0.1), "friction": (0.15, 0.6),
-    "amplitude": (0.5, 4.0), "depth": (3.0, 6.0), "grain_friction": (0.3, 0.8), "rolling_friction": (0.0, 0.2), "restitution": (0.3, 0.8),
+    "amplitude": (0.5, 4.0), "depth": (3.0, 20.0), "grain_friction": (0.3, 0.8), "rolling_friction": (0.0, 0.2), "restitution": (0.3, 0.8),
 }  # fmt: skip
 DIAMETER = 3  # mm, of base.toml
 CHUNK = 16  # layers of a campaign
 SEED = 20261126  # of the layers that judge, and of the Sobol sequences
 Part = dict[str, tuple[float, float]]  # ranges that differ from RANGES
-UPHILL: Part = {"throw_number": (0.7, 2.2), "tan_inclination": (0.0, 0.1)}
-USUAL: Part = {"throw_number": (1.0, 2.4)}
-# Campaigns of the atlas' own layers: of the additive recurrence, then of Sobol sequences over the whole domain and over parts of it: that in
-# which the first campaigns left the largest errors, and that in which most troughs run.
+SHALLOW: Part = {"depth": (3.0, 6.0)}
+UPHILL: Part = {**SHALLOW, "throw_number": (0.7, 2.2), "tan_inclination": (0.0, 0.1)}
+USUAL: Part = {**SHALLOW, "throw_number": (1.0, 2.4)}
+DEEP: Part = {"depth": (6.0, 20.0)}
+# Campaigns of the atlas' own layers: of the additive recurrence, then of Sobol sequences, each over a part of the domain: shallow layers
+# everywhere, where the first campaigns left the largest errors, and where most troughs run, and deep layers, each of which takes minutes.
 RECURRENCE = 5
-SEQUENCES: list[tuple[int, Part, int]] = [(4, {}, SEED), (2, UPHILL, SEED + 1), (4, USUAL, SEED + 3)]  # campaigns, part, seed
+SEQUENCES: list[tuple[int, Part, int]] = [(4, SHALLOW, SEED), (2, UPHILL, SEED + 1), (4, USUAL, SEED + 3), (1, DEEP, SEED + 2)]  # campaigns, part, seed
 
 
 def own_campaigns() -> list[NDArray[np.float64]]:
     """The layers of each campaign, points of the unit cube."""
-    found = [recurrence(CHUNK, CHUNK * number) for number in range(RECURRENCE)]
+    found = [within(SHALLOW, recurrence(CHUNK, CHUNK * number)) for number in range(RECURRENCE)]
     for campaigns, part, seed in SEQUENCES:
         found += np.split(within(part, sobol(CHUNK * campaigns, seed)), campaigns)
     return found
@@ -56,8 +58,8 @@ def recurrence(count: int, start: int) -> NDArray[np.float64]:
     return (0.5 + np.outer(np.arange(start + 1, start + count + 1), steps)) % 1
 
 
-def at_random(count: int) -> NDArray[np.float64]:
-    return np.random.default_rng(SEED).random((count, len(RANGES)))
+def at_random(count: int, part: Part, seed: int = SEED) -> NDArray[np.float64]:
+    return within(part, np.random.default_rng(seed).random((count, len(RANGES))))
 
 
 def keys_of(unit: NDArray[np.float64]) -> dict[str, list[str] | list[float]]:

@@ -21,12 +21,13 @@ from campaign_program import campaign_text, run_campaign, toml_value  # noqa: E4
 from validation_case import ValidationCase, read_table  # noqa: E402
 
 HELD_OUT = {"h0": 15, "h1": 15, "h2": 10, "h3": 16, "h4": 16, "h5": 14, "h6": 14}  # campaigns of random layers, and how many each has
+DEEP_HELD_OUT = {"deep0": 16}  # the same of deep ones, which are as precise as the atlas' own
 SEEN = 56  # the first of them were known when the surface was chosen (trend, uphill campaigns, draws); the others judge
 # Parts of the domain: what is judged for each, and which layers lie in it.
 REGIONS: dict[str, tuple[str, float, float]] = {
     "no throw": ("throw_number", 0, 1), "near take-off": ("throw_number", 1, 1.2), "thrown": ("throw_number", 1.2, 2.42),
-    "several cycles": ("throw_number", 2.42, 4), "downhill": ("tan_inclination", -1, -0.02), "level": ("tan_inclination", -0.02, 0.02),
-    "uphill": ("tan_inclination", 0.02, 1),
+    "thrown far": ("throw_number", 2.42, 4), "downhill": ("tan_inclination", -1, -0.02), "level": ("tan_inclination", -0.02, 0.02),
+    "uphill": ("tan_inclination", 0.02, 1), "shallow": ("depth", 0, 6), "deep": ("depth", 6, 20),
 }  # fmt: skip
 DRY_TORQUE = 0.02  # of the rolling-layer law, to which rolling friction adds
 # What a layer does to its trough: the part of its mass that moves along, its damping over mass times omega (the first campaigns have
@@ -36,7 +37,8 @@ LOAD = [*(f"{name}{end}" for name in LOADS for end in ("", "_half_width")), "per
 COLUMNS = ["case", *design.RANGES, "theory", "rolling_layer", "efficiency", "half_width", "numerical_error", "layer_mode", "outcome", *LOAD]
 PREDICTED_LOAD = ["number", "throw_number", *(f"{source}{name}{end}" for name in LOADS for source in ("", "atlas_") for end in ("", "_half_width"))]
 MAKERS = (0.10, 0.25)  # of the material's mass move with the trough (NetterVibration)
-PREDICTED = ["number", "case", "throw_number", "tan_inclination", "efficiency", "half_width", "numerical_error", "theory", "rolling_layer", "atlas", "atlas_half_width"]
+PREDICTED = ["number", "case", "throw_number", "tan_inclination", "depth", "efficiency", "half_width", "numerical_error", "theory", "rolling_layer", "atlas", "atlas_half_width"]
+DEEP_LAYERS = ["grains", "depth", "throw_number", "efficiency", "half_width", "atlas", "atlas_half_width"]
 DECISIONS = ["domain", "throw_number", "efficiency", "half_width", "theory", "atlas", "atlas_half_width"]
 # Layers that are the same without dimensions: what differs between them. The modulus goes with density, gravity and diameter.
 SAME: dict[str, dict[str, Any]] = {
@@ -44,7 +46,7 @@ SAME: dict[str, dict[str, Any]] = {
     "larger": {"grains.youngs_modulus": "8 MPa", "grains.diameter": "6 mm", "trough.amplitude": "12 mm", "layer.length": "48 mm", "layer.width": "30 mm"},
     "heavier": {"grains.youngs_modulus": "8 MPa", "grains.density": "2800 kg/m3"},
 }
-PRECISE = {"measure.half_width": 0.05}  # of the layers that judge
+PRECISE = {"measure.half_width": 0.05}  # of the shallow layers that judge
 STEADY = ("finished", "not-precise")
 Row = dict[str, str]
 Floats = NDArray[np.float64]
@@ -116,10 +118,7 @@ def simulate(run: ValidationCase) -> None:
     rows = [row for number, points in enumerate(design.own_campaigns()) for row in layers_at(run, f"p{number}", points, {})]
     run.write_table("layers.csv", COLUMNS, [row for row in rows if is_known(row)])
     run.write_table("apart.csv", COLUMNS, [row for row in rows if not is_known(row)])
-    points, held_out, first = design.at_random(sum(HELD_OUT.values())), [], 0
-    for name, count in HELD_OUT.items():
-        held_out += layers_at(run, name, points[first : first + count], PRECISE)
-        first += count
+    held_out = [row for name, points, changes in random_layers() for row in layers_at(run, name, points, changes)]
     numbered = [[number, *row] for number, row in enumerate(held_out) if is_known(row)]
     run.write_table("held_out.csv", ["number", *COLUMNS], numbered)
     same = [
@@ -130,9 +129,26 @@ def simulate(run: ValidationCase) -> None:
     run.write_table("same.csv", ["layer", "throw_number", "efficiency", "half_width"], same)
 
 
+def random_layers() -> list[tuple[str, Floats, dict[str, Any]]]:
+    """The campaigns of the layers that judge: name, points of the unit cube, and what differs from base.toml."""
+    found: list[tuple[str, Floats, dict[str, Any]]] = []
+    deep = design.at_random(sum(DEEP_HELD_OUT.values()), design.DEEP, design.SEED + 3)
+    shallow = design.at_random(sum(HELD_OUT.values()), design.SHALLOW)
+    parts: list[tuple[dict[str, int], Floats, dict[str, Any]]] = [(HELD_OUT, shallow, PRECISE), (DEEP_HELD_OUT, deep, {})]
+    for campaigns, points, changes in parts:
+        chunks = np.split(points, np.cumsum(list(campaigns.values()))[:-1])
+        found += [(name, chunk, changes) for name, chunk in zip(campaigns, chunks, strict=True)]
+    return found
+
+
+def predict_random(run: ValidationCase) -> list[dict[str, Any]]:
+    """What the program predicts of each of the random layers, in the order of their numbers."""
+    return [answer for _, points, changes in random_layers() for answer in run.of_file("predict", campaign_at(run, points, changes))]
+
+
 def predict(run: ValidationCase) -> list[list[object]]:
     """Predictions of the random layers; rows of PREDICTED."""
-    answers = run.of_file("predict", campaign_at(run, design.at_random(sum(HELD_OUT.values())), PRECISE))
+    answers = predict_random(run)
     rows: list[list[object]] = []
     for row in run.table("held_out.csv"):
         answer = answers[int(row["number"])]
@@ -142,7 +158,7 @@ def predict(run: ValidationCase) -> list[list[object]]:
 
 def predict_loads(run: ValidationCase) -> list[list[object]]:
     """Predictions of what the random layers that were measured do to their trough; rows of PREDICTED_LOAD."""
-    answers = run.of_file("predict", campaign_at(run, design.at_random(sum(HELD_OUT.values())), PRECISE))
+    answers = predict_random(run)
     names = {"added_mass": "added_mass_fraction", "damping": "damping"}
     rows: list[list[object]] = []
     one: list[object]
@@ -212,13 +228,12 @@ def judge(run: ValidationCase) -> None:
     own = math.sqrt(max(0.0, rms["atlas"] ** 2 - noise**2))
     run.finding("we: the atlas misses layers by at most 0.04 (root mean square, less the noise of the simulations)", own <= 0.04,
                 f"{own:.3f}; the law alone {rms['rolling_layer']:.3f}, the point mass {rms['theory']:.3f}")
-    others = judge_decisions(run) | judge_loads(run)
+    others = judge_decisions(run) | judge_deep_layers(run) | judge_loads(run)
     if not run.control:
         every = run.table("predicted.csv")
         all_held = sum(abs(float(row["efficiency"]) - float(row["atlas"])) <= math.hypot(float(row["half_width"]), float(row["atlas_half_width"])) for row in every)
         least, most = scipy.stats.binom.ppf([0.025, 0.975], len(every), 0.95)
-        all_rms = {key: math.sqrt(float(np.mean([(float(row["efficiency"]) - float(row[key])) ** 2 for row in every]))) for key in rms}
-        scores = {"all": len(every), **{f"all_rms_{key}": f"{one:.3f}" for key, one in all_rms.items()}, "all_held": all_held, "all_least": f"{least:.0f}", "all_most": f"{most:.0f}", "layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
+        scores = {"all": len(every), "all_held": all_held, "all_least": f"{least:.0f}", "all_most": f"{most:.0f}", "layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
         by_region(run)
         run.follows("scores.csv", ["score", "value"], [[name, one] for name, one in scores.items()])
 
@@ -230,7 +245,7 @@ def by_region(run: ValidationCase) -> None:
     own: dict[str, float] = {}
     for region, (key, low, high) in REGIONS.items():
         inside = [row for row in every if low < float(row[key]) <= high]
-        value = {name: np.array([float(row[name]) for row in inside]) for name in PREDICTED[4:]}
+        value = {name: np.array([float(row[name]) for row in inside]) for name in PREDICTED[5:]}
         held = int(np.sum(np.abs(value["efficiency"] - value["atlas"]) <= np.hypot(value["half_width"], value["atlas_half_width"])))
         rms = [math.sqrt(float(np.mean((value["efficiency"] - value[model]) ** 2))) for model in ("atlas", "rolling_layer", "theory")]
         noise = math.sqrt(float(np.mean((value["half_width"] / 1.96) ** 2)))
@@ -249,6 +264,36 @@ def judge_decisions(run: ValidationCase) -> dict[str, object]:
     run.finding("we: the layers of validation/decisions lie within their intervals, too", bool(inside >= scipy.stats.binom.ppf(0.025, len(others), 0.95)),
                 f"{inside} of {len(others)}; root mean square {rms['atlas']:.3f}, of the point mass {rms['theory']:.3f}")
     return {"decisions": len(others), "decisions_held": inside, "decisions_rms": f"{rms['atlas']:.3f}", "decisions_rms_theory": f"{rms['theory']:.3f}"}
+
+
+def predict_deep_layers(run: ValidationCase) -> list[list[object]]:
+    """Predictions of the grid of validation/deep_layers, of the stiffest grains of each layer that is deeper than 6 diameters."""
+    folder = FOLDER.parent / "deep_layers"
+    layers = [row for row in read_table(folder / "grid.csv") if row["modulus_MPa"] == "500" and row["outcome"] in STEADY]
+    zipped: dict[str, list[Any]] = {
+        "trough.throw_number": [float(row["throw_number"]) for row in layers], "layer.diameters": [float(row["depth"]) for row in layers],
+        "grains.rotation": [row["grains"] for row in layers], "grains.rolling_friction": [0.2 if row["grains"] == "rolling" else 0.0 for row in layers],
+    }  # fmt: skip
+    changes = {"grains.youngs_modulus": "500 MPa", "layer.height": None}
+    text = campaign_text(run.sections(str(folder / "base.toml")), changes, {}).replace("[sweep]", "[zip]")
+    text += "".join(f'"{key}" = {toml_value(values)}\n' for key, values in zipped.items())
+    return [
+        [*(row[key] for key in DEEP_LAYERS[:-2]), f"{answer['efficiency']:.4f}", f"{answer['half_width']:.4f}"]
+        for row, answer in zip(layers, run.of_file("predict", text), strict=True)
+        if answer["inside"]
+    ]
+
+
+def judge_deep_layers(run: ValidationCase) -> dict[str, object]:
+    """How well the atlas predicts the layers of validation/deep_layers; scores by name."""
+    run.follows("deep_layers.csv", DEEP_LAYERS, predict_deep_layers(run))
+    rows = [{key: float(row[key]) for key in DEEP_LAYERS[1:]} for row in run.table("deep_layers.csv")]
+    errors = [row["efficiency"] - row["atlas"] for row in rows]
+    held = sum(abs(error) <= math.hypot(row["half_width"], row["atlas_half_width"]) for error, row in zip(errors, rows, strict=True))
+    rms = math.sqrt(float(np.mean(np.square(errors))))
+    run.finding("we: the layers of validation/deep_layers of 12 and 20 diameters lie within their intervals", bool(held >= scipy.stats.binom.ppf(0.025, len(rows), 0.95)),
+                f"{held} of {len(rows)}; root mean square {rms:.3f}")
+    return {"deep_layers": len(rows), "deep_layers_held": held, "deep_layers_rms": f"{rms:.3f}"}
 
 
 def draw(run: ValidationCase) -> None:
