@@ -19,9 +19,9 @@ TASKS, REACHED, SEED = 10, 9, 20261127
 MODELS = ["rolling-layer", "atlas", "point-mass"]
 OBJECTIVES = ["fastest", "least-machine-number"]
 CONTROL = 1.2  # of the mass flow
-# A deep layer of pellets that roll freely: the machine that `design` proposes was simulated as it stands in engineer.toml.
+# A deep layer of pellets: the machine that `design` proposes was simulated as it stands in engineer.toml.
 ENGINEER = {
-    "--grain-diameter": "3.5 mm", "--rolling-friction": "0", "--friction": "0.3", "--bulk-density": "600 kg/m3", "--width": "400 mm", "--rpm": "960", "--machine-number": "4",
+    "--grain-diameter": "3.5 mm", "--friction": "0.3", "--bulk-density": "600 kg/m3", "--width": "400 mm", "--rpm": "960", "--machine-number": "4",
 }  # fmt: skip
 ENGINEERS_FLOW = 12  # t/h
 COLUMNS = ["task", "model", "objective", "diameter_mm", "friction", "friction_uncertainty", "rolling_friction", "wanted_t_per_h", "verdict", "machines", "core_hours",
