@@ -46,8 +46,8 @@ bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::str
 
 void tell_of_other_layers(int count) {
     if (count == 0) return;
-    tell("{} case{} of this folder left out: the campaign file describes another layer now\n", count,
-         count == 1 ? " is" : "s are");
+    tell("left out, as the campaign file describes another layer now: {} added case{}\n", count,
+         count == 1 ? "" : "s");
 }
 
 void keep_known_cases(campaign::Plan& plan, scenario::CaseMaker const& maker,

@@ -19,7 +19,8 @@ struct Outside {
     std::string why;   ///< such as "depth 30 (the atlas has 3 to 20)"
 };
 
-/// Further beyond a range than this, in widths of it, the atlas says nothing at all.
+/// Further beyond a range than this, in widths of it (for the depth: of its logarithm), the atlas says
+/// nothing at all.
 inline constexpr double farthest = 0.25;
 
 /// How many layers were simulated for the atlas.

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -58,6 +59,11 @@ atlas::Place place_of(theory::Drive const& d, double mu, double diameter,
     for (OpenInput const& one : inputs) place[one.input] = one.value.mean;
     return place;
 }
+
+/// Inputs of the drive, which a design is free to choose.
+constexpr std::array inputs_of_drive{atlas::throw_number_input, atlas::tan_vibration_input,
+                                     atlas::tan_inclination_input, atlas::amplitude_input};
+constexpr double rounding = 1e-9;  // of the width of a range
 
 /// By how much a place is beyond a range, relative to its width; at most zero inside.
 double beyond(atlas::Input input, double value) {
@@ -151,8 +157,7 @@ DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy, do
     model.excess = [inputs, diameter](theory::Drive const& d) {
         atlas::Place const place = place_of(d, atlas::middle_of(atlas::friction_input), diameter, inputs);
         double most = -1;
-        for (std::size_t input = 0; input < place.size(); ++input)
-            most = std::max(most, beyond(static_cast<atlas::Input>(input), place[input]));
+        for (atlas::Input const input : inputs_of_drive) most = std::max(most, beyond(input, place[input]));
         return most;
     };
     model.outside = [](theory::Drive const&, double mu,
@@ -161,8 +166,8 @@ DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy, do
             return fmt::format("the atlas has a {} of {:g} to {:g}, and not {:.3g}", what,
                                range_of(input).low, range_of(input).high, value);
         };
-        if (beyond(atlas::friction_input, mu) > 0) return tell("friction", atlas::friction_input, mu);
-        if (deep && beyond(atlas::depth_input, *deep) > 0)
+        if (beyond(atlas::friction_input, mu) > rounding) return tell("friction", atlas::friction_input, mu);
+        if (deep && beyond(atlas::depth_input, *deep) > rounding)
             return tell("depth in diameters", atlas::depth_input, *deep);
         return {};
     };

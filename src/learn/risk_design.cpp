@@ -270,22 +270,6 @@ RiskDesign design_by_these(DesignTask const& task) {
                      rounded(search, *fastest, reaches ? task.objective : Objective::fastest, reaches));
 }
 
-/// The best machine whose speed of the drive may be anything within its range, by models that know the depth
-/// of the layer which carries the mass flow.
-RiskDesign design_at_any_speed(DesignTask const& task) {
-    if (std::ranges::none_of(task.models, [](DesignModel const& m) { return bool(m.with_depth); }))
-        return design_by_these(task);
-    double depth = std::sqrt(task.depth.low * task.depth.high);
-    RiskDesign found = design_by_these(at_depth(task, depth));
-    for (int i = 1; i < most_depths && std::abs(found.depth / depth - 1) > same_depth; ++i) {
-        depth = found.depth;
-        found = design_by_these(at_depth(task, depth));
-    }
-    if (std::abs(found.depth / depth - 1) <= same_depth) return found;
-    // Two machines with other depths in turn: what the models say of the last one with its own.
-    return judge_machine(task, found.drive, found.depth);
-}
-
 /// How good a machine is, to be compared with one for another speed of the drive: first whether it reaches
 /// the mass flow, then the objective; without the mass flow, the sure speed.
 std::pair<bool, double> worth(DesignTask const& task, RiskDesign const& d) {
@@ -301,6 +285,26 @@ std::pair<bool, double> worth(DesignTask const& task, RiskDesign const& d) {
             return {true, -d.power_per_mass / d.sure_speed};
     }
     return {true, d.sure_speed};
+}
+
+/// The best machine whose speed of the drive may be anything within its range, by models that know the depth
+/// of the layer which carries the mass flow.
+RiskDesign design_at_any_speed(DesignTask const& task) {
+    if (std::ranges::none_of(task.models, [](DesignModel const& m) { return bool(m.with_depth); }))
+        return design_by_these(task);
+    RiskDesign before{}, found{};
+    found.depth = std::sqrt(task.depth.low * task.depth.high);
+    for (int i = 0; i < most_depths; ++i) {
+        before = std::exchange(found, design_by_these(at_depth(task, found.depth)));
+        if (std::abs(found.depth - before.depth) <= same_depth * before.depth) return found;
+    }
+    // Two machines with other depths in turn: the better one, each judged with the layer of either.
+    std::optional<RiskDesign> best;
+    for (theory::Drive const& drive : {before.drive, found.drive})
+        for (double const depth : {before.depth, found.depth})
+            if (auto one = judge_machine(task, drive, depth); !best || worth(task, one) > worth(task, *best))
+                best = std::move(one);
+    return *best;
 }
 
 /// The task for each speed and stroke that can be had.

@@ -49,6 +49,47 @@ TEST(AtlasDesignModel, OfALayerKnowsItsDepth) {
     EXPECT_NEAR(model.of_layer(24 * grain_diameter).at(middle(), 0.3)->efficiency, at_depth(20), 1e-6);
 }
 
+// How far a drive is within the atlas does not depend on the layer; a depth at the end of the atlas lies
+// within it, though 20 x 3.7 mm / 3.7 mm is rounded up, and 3 x 2.7 mm / 2.7 mm down.
+TEST(AtlasDesignModel, TheEndsOfItsDepthsBelongToIt) {
+    DesignModel const model = atlas_design_model({grain_diameter, Uncertain{0}});
+    for (double const depth : {3.0, 20.0, 24.0}) {
+        EXPECT_LT(model.of_layer(depth * grain_diameter).excess(middle()), -0.1);
+        EXPECT_NEAR(model.of_layer(depth * grain_diameter).excess(middle()), model.excess(middle()), 1e-12);
+    }
+    EXPECT_FALSE(model.untested(middle(), 0.3, 20 * 0.0037 / 0.0037));
+    EXPECT_FALSE(model.untested(middle(), 0.3, 3 * 0.0027 / 0.0027));
+}
+
+// Layers that are the faster the deeper they are, so that a thin one needs to be thick and a thick one thin:
+// the search has no end, and the thick one carries the mass flow.
+TEST(RiskDesign, OfTwoDepthsInTurnTheBetterOneIsTaken) {
+    DesignTask task{};
+    std::function<DesignModel(double)> const of_depth = [&](double depth) {
+        DesignModel model = point_mass_design_model(0.01);
+        model.at = [depth](theory::Drive const&, double) {
+            return ModelEfficiency{depth > 0.012 ? 0.8 : 0.4, 0};
+        };
+        model.with_depth = of_depth;
+        return model;
+    };
+    task.models = {of_depth(0)};
+    task.friction = normal_friction(0.3, 0);
+    task.bulk_density = 600;
+    task.width = 0.2;
+    task.depth = {0.002, 0.03};
+    DesignTask thick = task;
+    thick.models = {of_depth(0.02)};
+    thick.models.front().with_depth = {};
+    thick.mass_flow = 0.1;
+    double const fast = design_with_risk(thick).sure_speed;
+    task.mass_flow = 600 * 0.2 * 0.010 * fast;  // 10 mm of a thick layer's speed, 20 mm of a thin one's
+    RiskDesign const design = design_with_risk(task);
+    EXPECT_TRUE(design.feasible);
+    EXPECT_GT(design.depth, 0.012);
+    EXPECT_LT(design.depth, 0.022);
+}
+
 TEST(AtlasDesignModel, IsLessSureWithoutTheRollingFriction) {
     double const known = atlas_design_model({grain_diameter, Uncertain{0.1}}).at(middle(), 0.3)->sd(),
                  unknown = atlas_design_model({grain_diameter, {}}).at(middle(), 0.3)->sd();

@@ -277,9 +277,9 @@ with the half-width of its 95 % interval, the speed, the point mass beside it, t
 the layer, the share of the layer's mass that moves with the trough, and the most frequent motion (mode) among the five
 simulated layers that are most alike (F flight, P slide forwards, N slide backwards, R rest; ' right after a landing).
 It names what of a case lies outside of the atlas: a layer of another kind has no prediction; one beyond the ranges of
-the atlas is an extrapolation, up to a quarter of a range. The layer of an open trough is as deep as its feed makes it:
-mass flow over bulk density, width and speed (smooth side walls count as none). JSON has a list with case, efficiency,
-half_width, speed_m_per_s, efficiency_theory, inside, outside (names), and
+the atlas is an extrapolation, up to a quarter of a range (of the depth's logarithm). The layer of an open trough is
+as deep as its feed makes it: mass flow over bulk density, width and speed (smooth side walls count as none). JSON has
+a list with case, efficiency, half_width, speed_m_per_s, efficiency_theory, inside, outside (names), and
 added_mass_fraction, damping (over mass of the layer times omega), power_per_area_w_per_m2 and fed_depth_m, each with
 its half-width, and layer_mode with layer_mode_share.
 
