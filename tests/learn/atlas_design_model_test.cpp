@@ -33,7 +33,7 @@ TEST(AtlasDesignModel, IsTheAtlas) {
     EXPECT_GT(value.sd(), known.half_width / 1.96);
 }
 
-// A layer of a depth is that of the atlas, and its depth is no source of uncertainty any more; one that is
+// A layer of a known depth is that of the atlas, and its depth no longer adds to the uncertainty; one that is
 // deeper than those of the atlas counts as the deepest. Tolerance as above.
 TEST(AtlasDesignModel, OfALayerKnowsItsDepth) {
     DesignModel const model = atlas_design_model({grain_diameter, Uncertain{0.05}});
