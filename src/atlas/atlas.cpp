@@ -109,6 +109,20 @@ std::optional<double> fed_depth(prepare::PreparedCase const& p, Place const& pla
     return low;
 }
 
+/// By how much more an error of the atlas changes the speed of a layer that is fed than that of a layer of a
+/// given depth: a slower layer is deeper, and has the efficiency of its new depth. From h eta(h) = constant,
+/// it is eta / (eta + h d eta / d h).
+double by_its_depth(Place const& place) {
+    auto const flow = [&](double share) {
+        Place other = place;
+        other[depth_input] *= share;
+        return share * efficiency_at(other).value_or(NAN);
+    };
+    constexpr double step = 0.01;  // over which efficiency is nearly linear
+    double const steepness = (flow(1 + step) - flow(1 - step)) / (2 * step);
+    return std::isfinite(steepness) ? flow(1) / steepness : 1;
+}
+
 }  // namespace
 
 Answer predict(prepare::PreparedCase const& prepared) {
@@ -140,7 +154,8 @@ Answer predict(prepare::PreparedCase const& prepared) {
     answer.place = place;
     if (prepared.domain.open) {
         double const depth = place[depth_input] * mean_diameter(prepared.scenario);
-        answer.fed_depth = Bounded{depth, depth * value->half_width / std::abs(value->efficiency)};
+        answer.half_width = value->half_width * std::abs(by_its_depth(place));
+        answer.fed_depth = Bounded{depth, depth * *answer.half_width / std::abs(value->efficiency)};
     }
     return answer;
 }

@@ -29,8 +29,8 @@ struct Answer {
 /// what the layers scatter beyond their own intervals, and their numerical errors.
 ///
 /// The layer of an open trough is as deep as its feed makes it: h = Q / (rho_b b v), where the speed v is
-/// that of a layer of the depth h, and rho_b the bulk density. Its half-width is that of h with the interval
-/// of v.
+/// that of a layer of the depth h, and rho_b the bulk density. Half-widths count that a slower layer is
+/// deeper, and has the speed of its new depth.
 ///
 /// A layer of another kind (clumps, several materials, side walls closer than 20 diameters, which may be
 /// smooth in an open trough, a drive that is not a sinusoid, ...) has no efficiency. A layer of the same kind

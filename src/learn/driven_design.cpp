@@ -2,18 +2,41 @@
 
 #include "atlas/unknown.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace vibrotrough::learn {
 namespace {
 
 constexpr int most_repetitions = 12;
 constexpr double same_stroke = 1e-3;  // relative
+constexpr double steepest = 0.8;      // slope of a curve by which a step is lengthened
 
 Uncertain uncertain(atlas::Bounded const& number) {
     return {number.value, number.half_width / atlas::deviations_in_half_width};
 }
+
+/// The stroke to try next. Under a heavy layer the stroke that the exciter gives approaches its end in many
+/// small steps, since a smaller stroke makes the layer deeper; the line through the last two, as in the
+/// secant method, is there at once.
+class NextStroke {
+  public:
+    /// @param amplitude  m, that was tried  @param under_it  m, that the exciter gives under its layer
+    double after(double amplitude, double under_it) {
+        double slope = 0;
+        if (tried_) slope = (under_it - tried_->second) / (amplitude - tried_->first);
+        tried_ = {amplitude, under_it};
+        if (!(slope > 0)) return under_it;
+        double const step = (under_it - amplitude) / (1 - std::min(slope, steepest));
+        return std::max(amplitude + step, under_it / 2);
+    }
+
+  private:
+    std::optional<std::pair<double, double>> tried_;
+};
 
 }  // namespace
 
@@ -47,19 +70,19 @@ ChosenDesign design_with_exciter(DesignTask const& task,
                                  std::function<ChosenDesign(DesignTask const&)> const& find) {
     DesignTask one = task;
     MovedMachine& machine = *one.machine;
-    double depth = 0;
+    double material = 0, amplitude = amplitude_of(machine, task.space.frequency.low, material);
+    NextStroke next;
     for (int i = 0; i < most_repetitions; ++i) {
-        double const material = material_on(task, depth);
-        double const amplitude = amplitude_of(machine, task.space.frequency.low, material);
         one.space.amplitude = {amplitude, amplitude};
         double const by_load = amplitude_sd(machine, task.space.frequency.low, material);
         one.errors.amplitude = std::hypot(task.errors.amplitude, by_load);
         ChosenDesign found = find(one);
         settle_load(found.task, found.design);
         machine = *found.task.machine;
-        depth = found.design.depth;
-        double const under_it = amplitude_of(machine, task.space.frequency.low, material_on(task, depth));
+        material = material_on(task, found.design.depth);
+        double const under_it = amplitude_of(machine, task.space.frequency.low, material);
         if (std::abs(under_it / amplitude - 1) < same_stroke) return found;
+        amplitude = next.after(amplitude, under_it);
     }
     throw std::invalid_argument(
         "the stroke and the depth of the layer change each other without an end; give the stroke by "

@@ -3,6 +3,7 @@
 #include "learn/design_report.hpp"
 #include "learn/pellets.hpp"
 
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
@@ -81,6 +82,27 @@ TEST(DrivenDesign, AddedMassIsThatOfTheAtlas) {
     found.task.grain_diameter = 0.0045;
     settle_load(found.task, found.design);
     EXPECT_EQ(machine.added_mass.mean, 0.4);
+}
+
+// A layer as heavy as its trough: each search finds a depth that is larger by 0.85 of what the moving mass
+// grew by. Stroke by stroke that takes more than forty searches; 12 are allowed. The stroke A solves A = m r
+// / (M + c h) with h = 0.25 / A^n as made up here.
+TEST(DrivenDesign, SettlesUnderAHeavyLayer) {
+    DesignTask task = driven_trough();
+    task.machine->added_mass = {0.5};
+    task.machine->added_mass_source = AddedMassSource::given;
+    double const empty = 0.46 / 120;
+    int searches = 0;
+    auto const heavy = [&](DesignTask const& one) {
+        ++searches;
+        ChosenDesign found{one, {}};
+        found.design.depth = 0.064 * std::pow(empty / one.space.amplitude.low, 3);
+        return found;
+    };
+    auto const [settled, design] = design_with_exciter(task, heavy);
+    double const amplitude = settled.space.amplitude.low;
+    EXPECT_NEAR(0.46 / (120 + 0.5 * 600 * 0.3 * 3 * design.depth) / amplitude, 1, 1.01e-3);
+    EXPECT_LE(searches, 7);
 }
 
 // A machine whose layer is thick under a large stroke and thin under a small one has no stroke of its own.
