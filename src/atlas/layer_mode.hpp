@@ -20,4 +20,11 @@ struct LikelyMode {
 /// is said (tests/atlas).
 LikelyMode mode_at(Place const& place);
 
+/// How many of them decide about the period, since few layers repeat only after several cycles.
+inline constexpr int layers_asked_for_period = 9;
+
+/// How many of the layers_asked_for_period simulated layers that are most alike, and whose period is known,
+/// repeat only after several cycles.
+int repeating_later(Place const& place);
+
 }  // namespace vibrotrough::atlas

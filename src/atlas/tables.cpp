@@ -81,13 +81,16 @@ std::vector<SurfacePoint> read_column(std::string_view text, std::string const& 
     return points;
 }
 
-std::vector<LayerMotion> read_modes(std::string_view text, std::string const& file) {
+std::vector<LayerMotion> read_motions(std::string_view text, std::string const& file) {
     core::CsvReader reader(text, file, format());
     Columns const columns(reader);
     std::vector<LayerMotion> layers;
-    while (reader.next())
-        if (std::string const mode = columns.text("layer_mode"); !mode.empty())
-            layers.push_back({columns.place(), mode});
+    while (reader.next()) {
+        std::string const mode = columns.text("layer_mode");
+        std::optional<int> period;
+        if (!columns.text("period").empty()) period = static_cast<int>(columns.number("period"));
+        if (!mode.empty()) layers.push_back({columns.place(), mode, period});
+    }
     return layers;
 }
 

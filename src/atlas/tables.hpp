@@ -4,6 +4,7 @@
 #include "inference/gaussian_process.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,13 +60,14 @@ std::vector<SurfacePoint> read_column(std::string_view text, std::string const& 
 
 /// How a simulated layer moved.
 struct LayerMotion {
-    Place place;       ///< of the layer
-    std::string mode;  ///< its phases in the order of a cycle, such as FP'NP
+    Place place;                ///< of the layer
+    std::string mode;           ///< its phases in the order of a cycle, such as FP'NP
+    std::optional<int> period;  ///< cycles after which it repeats; nothing: not measured
 };
 
-/// Reads the modes of a table of layers (column layer_mode). Layers that have none are left out.
+/// Reads the motions of a table of layers (columns layer_mode, period). Layers without a mode are left out.
 /// @throws core::CsvError that names line and column
-std::vector<LayerMotion> read_modes(std::string_view text, std::string const& file);
+std::vector<LayerMotion> read_motions(std::string_view text, std::string const& file);
 
 /// The mean of the bounds of the layers' numerical errors (95 %), in velocity efficiency: soft grains, a
 /// small box, the time step. More layers do not make it smaller.

@@ -29,6 +29,7 @@ class Predict(EndToEndTest):
                 self.assertTrue(0 < case["added_mass_fraction"] < 1, case)
                 self.assertRegex(case["layer_mode"], r"^[FPNR']+$")
                 self.assertTrue(0.2 <= case["layer_mode_share"] <= 1, case)
+                self.assertTrue(0 <= case["several_cycles_share"] <= 1, case)
             self.assertLess(case["power_per_area_half_width_w_per_m2"], case["power_per_area_w_per_m2"])
             self.assertGreater(case["speed_m_per_s"], 0)
         # More throw, more speed; and beyond the atlas it is less sure.

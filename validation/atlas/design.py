@@ -22,7 +22,7 @@ DEEP: Part = {"depth": (6.0, 20.0)}
 # Campaigns of the atlas' own layers: of the additive recurrence, then of Sobol sequences, each over a part of the domain: shallow layers
 # everywhere, where the first campaigns left the largest errors, and where most troughs run, and deep layers, each of which takes minutes.
 RECURRENCE = 5
-SEQUENCES: list[tuple[int, Part, int]] = [(4, SHALLOW, SEED), (2, UPHILL, SEED + 1), (4, USUAL, SEED + 3), (1, DEEP, SEED + 2)]  # campaigns, part, seed
+SEQUENCES: list[tuple[int, Part, int]] = [(4, SHALLOW, SEED), (2, UPHILL, SEED + 1), (4, USUAL, SEED + 3), (2, DEEP, SEED + 2)]  # campaigns, part, seed
 
 
 def own_campaigns() -> list[NDArray[np.float64]]:

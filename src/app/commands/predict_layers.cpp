@@ -33,12 +33,17 @@ struct PredictedLayer {
     std::optional<atlas::LayerLoad> load;
     std::optional<atlas::LikelyMode> mode;
     std::optional<atlas::Bounded> power;  ///< W/m^2 of trough
+    int later = 0;  ///< of the layers that are most alike, those that repeat only after several cycles
     std::optional<double> speed() const {
         return answer.efficiency ? std::optional(*answer.efficiency * velocity_scale) : std::nullopt;
     }
     /// Of the simulated layers that are most alike, those that move so.
     std::optional<double> mode_share() const {
         return mode ? std::optional(static_cast<double>(mode->agreeing) / atlas::layers_asked) : std::nullopt;
+    }
+    std::optional<double> later_share() const {
+        return mode ? std::optional(static_cast<double>(later) / atlas::layers_asked_for_period)
+                    : std::nullopt;
     }
     std::string outside(std::string atlas::Outside::*part, std::string_view separator) const {
         std::vector<std::string> texts;
@@ -67,10 +72,12 @@ PredictedLayer predict_layer(prepare::PreparedCase const& prepared, std::string 
                          prepared.velocity_scale,
                          {},
                          {},
-                         {}};
+                         {},
+                         0};
     if (layer.answer.place) {
         layer.load = atlas::load_at(*layer.answer.place);
         layer.mode = atlas::mode_at(*layer.answer.place);
+        layer.later = atlas::repeating_later(*layer.answer.place);
         layer.power = power_per_area(*layer.load, prepared, layer.answer.fed_depth);
     }
     return layer;
@@ -86,11 +93,17 @@ std::vector<PredictedLayer> predict_all(scenario::Campaign const& campaign) {
     return layers;
 }
 
+/// Layers that repeat only after several cycles, of those most alike, that are told.
+constexpr int remarkable = 2;
+
 /// What is told of a layer in words: how deep its feed makes it, and what lies outside.
 std::string remarks(PredictedLayer const& layer) {
     std::string text;
     if (auto const& depth = layer.answer.fed_depth)
         text = fmt::format("  fed: {:.3g} +- {:.2g} mm deep", 1e3 * depth->value, 1e3 * depth->half_width);
+    if (layer.later >= remarkable)
+        text += fmt::format("  may repeat only after several cycles, as {} of the {} layers most alike do",
+                            layer.later, atlas::layers_asked_for_period);
     std::string const outside = layer.outside(&atlas::Outside::why, ", ");
     return outside.empty() ? text : text + "  outside: " + outside;
 }
@@ -125,6 +138,7 @@ Json as_json(PredictedLayer const& layer) {
     for (auto const& [name, value] : load_of(layer)) json[name] = number_or_null(value);
     json["layer_mode"] = layer.mode ? Json(layer.mode->mode) : Json(nullptr);
     json["layer_mode_share"] = number_or_null(layer.mode_share());
+    json["several_cycles_share"] = number_or_null(layer.later_share());
     return json;
 }
 
@@ -135,14 +149,15 @@ std::string cell(std::optional<double> const& value) {
 void print_csv(std::vector<PredictedLayer> const& layers) {
     fmt::print("case,efficiency,half_width,speed_m_per_s,efficiency_theory,inside,outside");
     for (auto const& [name, value] : load_of(layers.front())) fmt::print(",{}", name);
-    fmt::print(",layer_mode,layer_mode_share\n");
+    fmt::print(",layer_mode,layer_mode_share,several_cycles_share\n");
     for (PredictedLayer const& layer : layers) {
         fmt::print("{},{},{},{},{},{},{}", core::csv_cell(layer.label), cell(layer.answer.efficiency),
                    cell(layer.answer.half_width), cell(layer.speed()), cell(layer.theory),
                    layer.answer.is_inside() ? 1 : 0,
                    core::csv_cell(layer.outside(&atlas::Outside::name, " ")));
         for (auto const& [name, value] : load_of(layer)) fmt::print(",{}", cell(value));
-        fmt::print(",{},{}\n", layer.mode ? layer.mode->mode : "", cell(layer.mode_share()));
+        fmt::print(",{},{},{}\n", layer.mode ? layer.mode->mode : "", cell(layer.mode_share()),
+                   cell(layer.later_share()));
     }
 }
 
