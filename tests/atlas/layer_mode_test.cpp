@@ -19,11 +19,11 @@ std::vector<LayerMotion> random_layers() {
     return read_motions(table, "held_out.csv");
 }
 
-// The 115 random layers of validation/atlas are none of those that are asked. 83 modes are right; where the
+// The 116 random layers of validation/atlas are none of those that are asked. 83 modes are right; where the
 // five layers agree, more often than where they do not. The table is stored, so that the numbers are exact.
 TEST(LayerMode, OfRandomLayersIsMostlyRight) {
     auto const layers = random_layers();
-    ASSERT_EQ(layers.size(), 115U);
+    ASSERT_EQ(layers.size(), 116U);
     int right = 0, sure = 0, right_and_sure = 0;
     for (LayerMotion const& layer : layers) {
         LikelyMode const found = mode_at(layer.place);
@@ -56,7 +56,6 @@ TEST(LayerMode, SeveralCyclesAreForetoldByTheLayersMostAlike) {
         marked_and_later += alike > 1 && is_later;
     }
     EXPECT_LT(score, 0.95 * score_of_share);
-    std::cerr << score << ' ' << score_of_share << ' ' << known << ' ' << later << ' ' << marked << ' '
               << marked_and_later << "\n";
 }
 
