@@ -4,6 +4,7 @@
 #include "atlas/unknown.hpp"
 #include "theory/point_mass.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -111,16 +112,18 @@ std::optional<double> fed_depth(prepare::PreparedCase const& p, Place const& pla
 
 /// By how much more an error of the atlas changes the speed of a layer that is fed than that of a layer of a
 /// given depth: a slower layer is deeper, and has the efficiency of its new depth. From h eta(h) = constant,
-/// it is eta / (eta + h d eta / d h).
+/// it is eta / (eta + h d eta / d h). It counts as at least 1, since where it is less, a large error still
+/// is not, and as at most `most`: there the depth hardly follows from the feed.
 double by_its_depth(Place const& place) {
+    constexpr double most = 5, step = 0.01;  // over which efficiency is nearly linear
     auto const flow = [&](double share) {
         Place other = place;
         other[depth_input] *= share;
         return share * efficiency_at(other).value_or(NAN);
     };
-    constexpr double step = 0.01;  // over which efficiency is nearly linear
     double const steepness = (flow(1 + step) - flow(1 - step)) / (2 * step);
-    return std::isfinite(steepness) ? flow(1) / steepness : 1;
+    if (!std::isfinite(steepness)) return 1;
+    return steepness > 0 ? std::clamp(flow(1) / steepness, 1.0, most) : most;
 }
 
 }  // namespace
@@ -154,7 +157,7 @@ Answer predict(prepare::PreparedCase const& prepared) {
     answer.place = place;
     if (prepared.domain.open) {
         double const depth = place[depth_input] * mean_diameter(prepared.scenario);
-        answer.half_width = value->half_width * std::abs(by_its_depth(place));
+        answer.half_width = value->half_width * by_its_depth(place);
         answer.fed_depth = Bounded{depth, depth * *answer.half_width / std::abs(value->efficiency)};
     }
     return answer;

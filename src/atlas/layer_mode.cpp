@@ -16,22 +16,21 @@ std::vector<LayerMotion> const& layers() {
     return all;
 }
 
-/// The layers that are most alike, nearest first.
-std::vector<LayerMotion> nearest_of(std::vector<LayerMotion> const& layers, Place const& place, int count) {
-    auto const distance = [&](LayerMotion const& layer) { return distance_between(layer.place, place); };
+/// The layers of the smallest distance, nearest first.
+template <class Distance>
+std::vector<LayerMotion> nearest_of(std::vector<LayerMotion> const& layers, int count,
+                                    Distance const& distance) {
     std::vector<LayerMotion> nearest(static_cast<std::size_t>(count));
     std::ranges::partial_sort_copy(layers, nearest, {}, distance, distance);
     return nearest;
 }
 
-bool is_later(LayerMotion const& layer) {
-    return layer.period.value_or(1) > 1;
-}
-
 }  // namespace
 
 LikelyMode mode_at(Place const& place) {
-    auto const nearest = nearest_of(layers(), place, layers_asked);
+    auto const nearest = nearest_of(layers(), layers_asked, [&](LayerMotion const& layer) {
+        return distance_between(layer.place, place);
+    });
     auto const agreeing = [&](LayerMotion const& one) {
         return static_cast<int>(std::ranges::count(nearest, one.mode, &LayerMotion::mode));
     };
@@ -40,15 +39,18 @@ LikelyMode mode_at(Place const& place) {
     return {found.mode, agreeing(found)};
 }
 
-int repeating_later(Place const& place) {
+int repeating_later(double throw_number) {
     static std::vector<LayerMotion> const known = [] {
         std::vector<LayerMotion> some;
         std::ranges::copy_if(layers(), std::back_inserter(some),
-                             [](auto const& one) { return one.period.has_value(); });
+                             [](LayerMotion const& one) { return one.period.has_value(); });
         return some;
     }();
-    return static_cast<int>(
-        std::ranges::count_if(nearest_of(known, place, layers_asked_for_period), is_later));
+    auto const nearest = nearest_of(known, layers_asked_for_period, [&](LayerMotion const& layer) {
+        return std::abs(layer.place[throw_number_input] - throw_number);
+    });
+    auto const is_later = [](LayerMotion const& layer) { return *layer.period > 1; };
+    return static_cast<int>(std::ranges::count_if(nearest, is_later));
 }
 
 }  // namespace vibrotrough::atlas

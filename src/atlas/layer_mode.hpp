@@ -20,12 +20,13 @@ struct LikelyMode {
 /// is said (tests/atlas).
 LikelyMode mode_at(Place const& place);
 
-/// How many of them decide about the period, since few layers repeat only after several cycles.
-inline constexpr int layers_asked_for_period = 9;
+/// How many simulated layers decide about the period: those of the nearest throw numbers, since only those
+/// thrown far may repeat after several cycles. (Layers that are most alike foretell it less well.)
+inline constexpr int layers_asked_for_period = 25;
 
-/// How many of the layers_asked_for_period simulated layers that are most alike, and whose period is known,
-/// repeat only after several cycles. Of 76 random layers 11 do: 6 of the 24 of which two or more of those most
-/// alike do, and 5 of the other 52 (tests/atlas).
-int repeating_later(Place const& place);
+/// How many of the layers_asked_for_period simulated layers whose period is known, and whose throw numbers
+/// are nearest, repeat only after several cycles. Of 76 random layers 11 do: 8 of the 26 where a fifth of the
+/// layers asked or more do, and 3 of the other 50 (tests/atlas).
+int repeating_later(double throw_number);
 
 }  // namespace vibrotrough::atlas

@@ -27,9 +27,9 @@ class NextStroke {
     /// @param amplitude  m, that was tried  @param under_it  m, that the exciter gives under its layer
     double after(double amplitude, double under_it) {
         double slope = 0;
-        if (tried_) slope = (under_it - tried_->second) / (amplitude - tried_->first);
+        if (tried_ && tried_->first != amplitude)
+            slope = (under_it - tried_->second) / (amplitude - tried_->first);
         tried_ = {amplitude, under_it};
-        if (!(slope > 0)) return under_it;
         double const step = (under_it - amplitude) / (1 - std::min(slope, steepest));
         return std::max(amplitude + step, under_it / 2);
     }

@@ -19,10 +19,10 @@ std::optional<atlas::LayerLoad> load_of(DesignTask const& task, RiskDesign const
 /// have, if load_of() knows it, and to what makers count with otherwise.
 void settle_load(DesignTask& task, RiskDesign const& design);
 
-/// Designs a machine whose stroke follows from its exciter: repeats a search with the stroke that the exciter
-/// gives under the layer of the machine found before, until it stays within a thousandth. It begins with the
-/// empty trough, which keeps the limits, too. What is not known
-/// of added mass and damping counts as an error of the stroke.
+/// Designs a machine whose stroke follows from its exciter: repeats a search with another stroke, by the
+/// secant method, until the exciter gives under the layer that was found the stroke that was tried, to a
+/// thousandth. It begins with the empty trough, which keeps the limits, too. What is not known of added mass
+/// and damping counts as an error of the stroke.
 /// @param task  with a machine that has an exciter, the length of the trough, and, where the machine has
 ///   springs, one frequency
 /// @param find  searches for a machine

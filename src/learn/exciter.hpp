@@ -41,7 +41,7 @@ struct MovedMachine {
     Uncertain added_mass = between_ends(0.10, 0.25);
     AddedMassSource added_mass_source = AddedMassSource::maker;  ///< where that is from
     /// The damping that the material adds, over its mass times omega; nothing where it is not known, and
-    /// then none counts, as makers do. Layers of spheres have 0.19 on average (validation/atlas), see
+    /// then none counts, as makers do. Layers of spheres have 0.18 on average (validation/atlas), see
     /// settle_load().
     std::optional<Uncertain> damping = {};
 

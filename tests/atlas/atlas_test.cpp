@@ -102,27 +102,31 @@ TEST(Atlas, TheFeedMakesTheDepth) {
     EXPECT_FALSE(place_of(prepared).has_value());
 }
 
-// A layer that is slower by w at every depth carries the feed Q in the depth in which the atlas' layer
-// carries Q eta / (eta - w). The half-width is half the way between both ends: a tenth for the curvature.
+// A layer that is slower by a part w at every depth carries the feed Q in the depth in which the atlas' layer
+// carries Q / (1 - w). The half-width is half the way between both ends: w^2, 0.15, for the curvature. Weakly
+// thrown uphill the layer is slower where it is deeper; at the second drive it hardly is.
 TEST(Atlas, AnErrorOfTheSpeedChangesTheDepthOfAFedLayer) {
-    double most = 0;
-    for (auto const& [throw_number, tons] :
-         {std::pair{"2.0", 0.25}, std::pair{"3.0", 0.4}, std::pair{"3.0", 0.8}}) {
+    for (auto const& [throw_number, up, friction, tons, least] :
+         {std::tuple{"1.18", "0.053", "0.547", 0.158, 1.2}, std::tuple{"2.0", "0.09", "0.23", 0.25, 1.0}}) {
         std::string const drive =
             with("throw_number = 2.0", std::string("throw_number = ") + throw_number,
-                 with("inclination = \"0 deg\"", "tan_inclination = 0.09", inside_layer));
-        auto const at = [&](double feed) { return answer_of(fed(std::to_string(feed) + " t/h", drive)); };
+                 with("inclination = \"0 deg\"", std::string("tan_inclination = ") + up, inside_layer));
+        auto const answer_with_friction = [&](std::string const& text) {
+            return answer_of(with("friction = 0.23", std::string("friction = ") + friction, text));
+        };
+        auto const at = [&](double feed) {
+            return answer_with_friction(fed(std::to_string(feed) + " t/h", drive));
+        };
         Answer const answer = at(tons);
         double const depth = answer.fed_depth.value().value;
         std::string const height = "height = \"" + std::to_string(1e3 * depth) + " mm\"";
-        Answer const periodic = answer_of(with("height = \"12 mm\"", height, drive));
+        Answer const periodic = answer_with_friction(with("height = \"12 mm\"", height, drive));
         double const w = periodic.half_width.value() / periodic.efficiency.value();
         double const deep = at(tons / (1 - w)).fed_depth.value().value;
         double const shallow = at(tons / (1 + w)).fed_depth.value().value;
-        EXPECT_NEAR(answer.fed_depth->half_width, (deep - shallow) / 2, 0.1 * (deep - shallow) / 2) << tons;
-        most = std::max(most, std::abs(answer.fed_depth->half_width / depth / w - 1));
+        EXPECT_NEAR(answer.fed_depth->half_width, (deep - shallow) / 2, 0.15 * (deep - shallow) / 2) << tons;
+        EXPECT_GE(answer.fed_depth->half_width / depth / w, least) << throw_number;
     }
-    EXPECT_GT(most, 0.03) << "else it does not matter that a slower layer is deeper";
 }
 
 TEST(Atlas, AFedLayerMayBeTooShallowOrTooDeepForIt) {

@@ -225,8 +225,11 @@ def judge(run: ValidationCase) -> None:
     run.between(f"layers within their intervals, of {len(judging)}", held, low, high, because="central 95 % of the binomial distribution; both intervals combined in squares")
     rms = {key: math.sqrt(float(np.mean((value["efficiency"] - value[key]) ** 2))) for key in ("atlas", "theory", "rolling_layer")}
     run.between("error of the atlas over that of the law (root mean squares)", rms["atlas"] / rms["rolling_layer"], 0, 1, because="else the layers have taught it nothing")
-    noise = math.sqrt(float(np.mean((value["half_width"] / 1.96) ** 2)))
-    own = math.sqrt(max(0.0, rms["atlas"] ** 2 - noise**2))
+    for region, most in MOST.items():
+        key, above, up_to = REGIONS[region]
+        inside = np.array([above < float(row[key]) <= up_to for row in judging])
+        run.between(f"error of the atlas, {region}, root mean square less the noise of the simulations", own_error(error[inside], value["half_width"][inside]), 0, most, because="what was wanted of the atlas")
+    own = own_error(error, value["half_width"])
     others = judge_decisions(run) | judge_deep_layers(run) | judge_loads(run)
     if not run.control:
         every = run.table("predicted.csv")
@@ -237,22 +240,23 @@ def judge(run: ValidationCase) -> None:
         run.follows("scores.csv", ["score", "value"], [[name, one] for name, one in scores.items()])
 
 
+def own_error(error: Any, half_width: Any) -> float:
+    """Root mean square of errors, less the noise of the simulations, of which the 95 % half-widths are known."""
+    return math.sqrt(max(0.0, float(np.mean(error**2) - np.mean((half_width / 1.96) ** 2))))
+
+
 def by_region(run: ValidationCase) -> None:
     """How well each part of the domain is predicted, from all random layers."""
     every = run.table("predicted.csv")
     rows: list[list[object]] = []
-    own: dict[str, float] = {}
     for region, (key, low, high) in REGIONS.items():
         inside = [row for row in every if low < float(row[key]) <= high]
         value = {name: np.array([float(row[name]) for row in inside]) for name in PREDICTED[5:]}
         held = int(np.sum(np.abs(value["efficiency"] - value["atlas"]) <= np.hypot(value["half_width"], value["atlas_half_width"])))
         rms = [math.sqrt(float(np.mean((value["efficiency"] - value[model]) ** 2))) for model in ("atlas", "rolling_layer", "theory")]
-        noise = math.sqrt(float(np.mean((value["half_width"] / 1.96) ** 2)))
-        own[region] = math.sqrt(max(0.0, rms[0] ** 2 - noise**2))
-        rows.append([region, key, low, high, len(inside), held, *(f"{one:.3f}" for one in rms), f"{own[region]:.3f}"])
+        own = own_error(value["efficiency"] - value["atlas"], value["half_width"])
+        rows.append([region, key, low, high, len(inside), held, *(f"{one:.3f}" for one in rms), f"{own:.3f}"])
     run.follows("regions.csv", ["region", "input", "above", "up_to", "layers", "held", "rms_atlas", "rms_rolling_layer", "rms_theory", "own_atlas"], rows)
-    for region, most in MOST.items():
-        run.between(f"error of the atlas, {region} (root mean square, less the noise of the simulations)", own[region], 0, most, because="what was wanted of the atlas")
 
 
 def judge_decisions(run: ValidationCase) -> dict[str, object]:

@@ -281,8 +281,8 @@ the atlas is an extrapolation, up to a quarter of a range (of the depth's logari
 as deep as its feed makes it: mass flow over bulk density, width and speed (smooth side walls count as none). JSON has
 a list with case, efficiency, half_width, speed_m_per_s, efficiency_theory, inside, outside (names), and
 added_mass_fraction, damping (over mass of the layer times omega), power_per_area_w_per_m2 and fed_depth_m, each with
-its half-width, layer_mode with layer_mode_share, and several_cycles_share: of the nine layers that are most alike, those
-that repeat only after several cycles (told in words from two on).
+its half-width, layer_mode with layer_mode_share, and several_cycles_share: the share of layers that repeat only after
+several cycles, among the 25 whose throw numbers are nearest (the text mentions it from a fifth on).
 
 With --at: fits a Gaussian process to the cases of the campaign that have a result. Its trend is the atlas, at the
 nearest place within its ranges, or the theory for layers of a kind that the atlas does not cover; only the difference

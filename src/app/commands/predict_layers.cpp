@@ -4,6 +4,7 @@
 #include "atlas/atlas.hpp"
 #include "atlas/layer_load.hpp"
 #include "atlas/layer_mode.hpp"
+#include "atlas/tables.hpp"
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "prepare/prepared_case.hpp"
@@ -33,7 +34,7 @@ struct PredictedLayer {
     std::optional<atlas::LayerLoad> load;
     std::optional<atlas::LikelyMode> mode;
     std::optional<atlas::Bounded> power;  ///< W/m^2 of trough
-    int later = 0;  ///< of the layers that are most alike, those that repeat only after several cycles
+    int later = 0;                        ///< atlas::repeating_later()
     std::optional<double> speed() const {
         return answer.efficiency ? std::optional(*answer.efficiency * velocity_scale) : std::nullopt;
     }
@@ -77,7 +78,7 @@ PredictedLayer predict_layer(prepare::PreparedCase const& prepared, std::string 
     if (layer.answer.place) {
         layer.load = atlas::load_at(*layer.answer.place);
         layer.mode = atlas::mode_at(*layer.answer.place);
-        layer.later = atlas::repeating_later(*layer.answer.place);
+        layer.later = atlas::repeating_later((*layer.answer.place)[atlas::throw_number_input]);
         layer.power = power_per_area(*layer.load, prepared, layer.answer.fed_depth);
     }
     return layer;
@@ -93,8 +94,8 @@ std::vector<PredictedLayer> predict_all(scenario::Campaign const& campaign) {
     return layers;
 }
 
-/// Layers that repeat only after several cycles, of those most alike, that are told.
-constexpr int remarkable = 2;
+/// From so many layers on that repeat only after several cycles it is told.
+constexpr int remarkable = atlas::layers_asked_for_period / 5;
 
 /// What is told of a layer in words: how deep its feed makes it, and what lies outside.
 std::string remarks(PredictedLayer const& layer) {
@@ -102,8 +103,9 @@ std::string remarks(PredictedLayer const& layer) {
     if (auto const& depth = layer.answer.fed_depth)
         text = fmt::format("  fed: {:.3g} +- {:.2g} mm deep", 1e3 * depth->value, 1e3 * depth->half_width);
     if (layer.later >= remarkable)
-        text += fmt::format("  may repeat only after several cycles, as {} of the {} layers most alike do",
-                            layer.later, atlas::layers_asked_for_period);
+        text += fmt::format(
+            "  may repeat only after several cycles, as {} of {} layers near this throw number do",
+            layer.later, atlas::layers_asked_for_period);
     std::string const outside = layer.outside(&atlas::Outside::why, ", ");
     return outside.empty() ? text : text + "  outside: " + outside;
 }
