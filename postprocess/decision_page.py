@@ -117,6 +117,7 @@ def design_page(data: Data) -> Page:
     task = data["task"]
     power = f"{data['power_w']:.3g} W" if "power_w" in data else f"{data['power_w_per_m']:.3g} W/m"
     landing = task["max_landing_speed_m_per_s"]
+    frictions = [f"{data[key]:.3g}" for key in ("friction_low", "friction_high")]
     machine = [
         ("stroke", f"{data['stroke_mm']:.4g} mm", f"amplitude {data['stroke_mm'] / 2:.4g} mm; {allowed(task['stroke_mm'], 'mm')}"),
         ("speed of the drive", f"{data['rpm']:.4g} 1/min", f"{data['frequency_hz']:.4g} Hz; {allowed(task['rpm'], '1/min')}"),
@@ -126,7 +127,7 @@ def design_page(data: Data) -> Page:
         ("throw number \u0393", f"{data['throw_number']:.3g}", f"at most {task['max_throw_number']:.4g}"),
         ("machine number K", f"{data['machine_number']:.3g}", f"at most {task['max_machine_number']:.4g}"),
         ("landing speed", f"{data['landing_speed_m_per_s']:.3g} m/s",
-         (f"at most {landing:.4g} m/s, " if landing is not None else "") + f"for frictions of {data['friction_low']:.3g} to {data['friction_high']:.3g}"),
+         (f"at most {landing:.4g} m/s, " if landing is not None else "") + ("for a friction of " if len(set(frictions)) == 1 else "for frictions of ") + " to ".join(dict.fromkeys(frictions))),
         ("power", power, "given to the material (point mass)"),
         *exciter_rows(data["exciter"]),
         ("held back by", "", ", ".join(data["active_limits"]).replace("<=", "\u2264").replace(">=", "\u2265") or "nothing"),
