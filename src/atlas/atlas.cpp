@@ -112,8 +112,8 @@ std::optional<double> fed_depth(prepare::PreparedCase const& p, Place const& pla
 
 /// By how much more an error of the atlas changes the speed of a layer that is fed than that of a layer of a
 /// given depth: a slower layer is deeper, and has the efficiency of its new depth. From h eta(h) = constant,
-/// it is eta / (eta + h d eta / d h). It counts as at least 1, since where it is less, a large error still
-/// is not, and as at most `most`: there the depth hardly follows from the feed.
+/// it is eta / (eta + h d eta / d h) for small errors. Less than 1 counts as 1, because large errors reach
+/// depths where that is no longer so; more than `most` counts as that: the feed hardly tells the depth.
 double by_its_depth(Place const& place) {
     constexpr double most = 5, step = 0.01;  // over which efficiency is nearly linear
     auto const flow = [&](double share) {

@@ -21,8 +21,9 @@ void settle_load(DesignTask& task, RiskDesign const& design);
 
 /// Designs a machine whose stroke follows from its exciter: repeats a search with another stroke, by the
 /// secant method, until the exciter gives under the layer that was found the stroke that was tried, to a
-/// thousandth. It begins with the empty trough, which keeps the limits, too. What is not known of added mass
-/// and damping counts as an error of the stroke.
+/// thousandth; under a layer as heavy as its trough that knows the stroke to a hundredth (tests/learn). It
+/// begins with the empty trough, which keeps the limits, too. What is not known of added mass and damping
+/// counts as an error of the stroke.
 /// @param task  with a machine that has an exciter, the length of the trough, and, where the machine has
 ///   springs, one frequency
 /// @param find  searches for a machine

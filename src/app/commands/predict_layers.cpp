@@ -34,7 +34,7 @@ struct PredictedLayer {
     std::optional<atlas::LayerLoad> load;
     std::optional<atlas::LikelyMode> mode;
     std::optional<atlas::Bounded> power;  ///< W/m^2 of trough
-    int later = 0;                        ///< atlas::repeating_later()
+    std::optional<int> later;             ///< atlas::repeating_later()
     std::optional<double> speed() const {
         return answer.efficiency ? std::optional(*answer.efficiency * velocity_scale) : std::nullopt;
     }
@@ -43,8 +43,8 @@ struct PredictedLayer {
         return mode ? std::optional(static_cast<double>(mode->agreeing) / atlas::layers_asked) : std::nullopt;
     }
     std::optional<double> later_share() const {
-        return mode ? std::optional(static_cast<double>(later) / atlas::layers_asked_for_period)
-                    : std::nullopt;
+        return later ? std::optional(static_cast<double>(*later) / atlas::layers_asked_for_period)
+                     : std::nullopt;
     }
     std::string outside(std::string atlas::Outside::*part, std::string_view separator) const {
         std::vector<std::string> texts;
@@ -74,7 +74,7 @@ PredictedLayer predict_layer(prepare::PreparedCase const& prepared, std::string 
                          {},
                          {},
                          {},
-                         0};
+                         {}};
     if (layer.answer.place) {
         layer.load = atlas::load_at(*layer.answer.place);
         layer.mode = atlas::mode_at(*layer.answer.place);
@@ -102,10 +102,10 @@ std::string remarks(PredictedLayer const& layer) {
     std::string text;
     if (auto const& depth = layer.answer.fed_depth)
         text = fmt::format("  fed: {:.3g} +- {:.2g} mm deep", 1e3 * depth->value, 1e3 * depth->half_width);
-    if (layer.later >= remarkable)
+    if (layer.later.value_or(0) >= remarkable)
         text += fmt::format(
             "  may repeat only after several cycles, as {} of {} layers near this throw number do",
-            layer.later, atlas::layers_asked_for_period);
+            *layer.later, atlas::layers_asked_for_period);
     std::string const outside = layer.outside(&atlas::Outside::why, ", ");
     return outside.empty() ? text : text + "  outside: " + outside;
 }
