@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/own_folder.hpp"
 #include "learn/corrected_model.hpp"
+#include "learn/design_campaign.hpp"
 #include "learn/design_report.hpp"
 #include "prepare/numerical_errors.hpp"
 
@@ -101,7 +102,7 @@ std::vector<learn::ComparedLayer> compared(learn::DesignTask const& task,
     std::vector<learn::ComparedLayer> all;
     for (learn::SimulatedLayer const& layer : layers) {
         for (learn::DesignModel const& model : task.models) {
-            auto const said = model.of_layer(layer.depth).at(layer.drive, layer.friction);
+            auto const said = model.at({layer.drive, layer.depth}, layer.friction);
             if (!said) continue;
             double const missed = std::hypot(said->statistics_sd, model.missed(layer.drive, {}));
             all.push_back({layer.friction, model.name, said->efficiency,
@@ -144,8 +145,10 @@ class Verifier {
     }
 
   private:
-    /// A calibration says what its model misses draw by draw; the correction takes their root mean square.
+    /// A calibration says what its model misses draw by draw; the correction takes their root mean square. Of
+    /// a material that no model knows the layers will tell.
     static learn::DesignTask with_known_errors(learn::DesignTask task) {
+        task.unknown_material.reset();
         double squares = 0;
         for (double const one : task.friction.discrepancies) squares += one * one;
         for (learn::DesignModel& model : task.models) {
@@ -166,9 +169,7 @@ class Verifier {
                last.drive.inclination == design.drive.inclination && last.depth == design.depth;
     }
 
-    learn::CheckedLayer layer() const {
-        return {*original_.grain_diameter, wanted_half_width, box_length, box_width};
-    }
+    learn::CheckedLayer layer() const { return {wanted_half_width, box_length, box_width}; }
     learn::Verification& verification() { return found_.verification; }
 
     VerifiedDesign ended(learn::Verdict verdict, std::string const& why) {
@@ -178,10 +179,7 @@ class Verifier {
     }
 
     /// Whether the models expect it to reach the mass flow, be they tested there or not.
-    bool is_worth_simulating() const {
-        learn::DesignTask const& t = found_.task;
-        return found_.design.sure_speed * t.bulk_density * t.width * t.depth.high >= t.mass_flow * (1 - 1e-9);
-    }
+    bool is_worth_simulating() const { return found_.design.sure_flow >= found_.task.mass_flow * (1 - 1e-9); }
 
     /// @return whether another machine is to be tried
     bool try_machine(int number) {
@@ -245,10 +243,6 @@ class Verifier {
 
 learn::RiskDesign propose_machine(learn::DesignTask const& task) {
     return fitting([&] { return learn::design_with_risk(task); });
-}
-
-learn::ChosenDesign choose_machine(learn::DesignTask const& task, learn::ModelsToChoose const& models) {
-    return fitting([&] { return learn::design_by_known_model(task, models); });
 }
 
 VerifiedDesign verify_design(learn::DesignTask const& task, VerificationOptions const& options) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/parallel.hpp"
-#include "learn/model_choice.hpp"
+#include "learn/risk_design.hpp"
 #include "learn/verification.hpp"
 
 #include <string>
@@ -28,8 +28,6 @@ struct VerifiedDesign {
 /// The machine that a task's models propose, simulated or not.
 /// @throws core::InputError when no machine keeps the limits of the task
 learn::RiskDesign propose_machine(learn::DesignTask const& task);
-/// The same by the model that knows its layer.
-learn::ChosenDesign choose_machine(learn::DesignTask const& task, learn::ModelsToChoose const& models);
 
 /// Simulates the machine that a task's models propose, at its own depth and with grains of its diameter, at
 /// the median of the friction and at the ends of its central 95 %; corrects the models with what the layers

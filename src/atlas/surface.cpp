@@ -86,6 +86,11 @@ double Surface::efficiency_at(Place const& place, double theory) const {
     return sum / static_cast<double>(others_.size());
 }
 
+SurfaceValue Surface::nearly_at(Place const& place, double theory) const {
+    auto const [mean, sd] = process_.predict(scaled(place), trend_at(theory));
+    return {mean, deviations_in_half_width * sd};
+}
+
 SurfaceValue Surface::difference(Place const& place, double theory, Place const& other,
                                  double theory_there) const {
     Eigen::VectorXd const xa = scaled(place), ha = trend_at(theory);

@@ -114,6 +114,9 @@ class Surface {
     /// The efficiency alone of at(), which takes a fraction of the time.
     double efficiency_at(Place const& place, double theory) const;
 
+    /// at() by the process of the largest likelihood alone, which takes a twentieth of the time.
+    SurfaceValue nearly_at(Place const& place, double theory) const;
+
     /// What the surface says of the efficiency at one place minus that at another, of which it knows more
     /// than of either: what both have in common does not widen the interval.
     SurfaceValue difference(Place const& place, double theory, Place const& other, double theory_there) const;

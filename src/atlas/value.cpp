@@ -43,6 +43,12 @@ std::optional<double> trend_at(Place const& place) {
     return last->second;
 }
 
+/// The interval of a layer: that of the surface, what layers scatter about it, and their numerical errors.
+SurfaceValue with_scatter(SurfaceValue const& value) {
+    static double const scatter = scatter_half_width(surface());
+    return {value.efficiency, std::hypot(value.half_width, scatter, numerical_error())};
+}
+
 }  // namespace
 
 std::string range_text(std::string_view name, double value, double low, double high) {
@@ -122,9 +128,13 @@ std::optional<SurfaceValue> difference_between(Place const& place, Place const& 
 std::optional<SurfaceValue> value_at(Place const& place) {
     auto const trend = trend_at(place);
     if (!trend) return {};
-    static double const scatter = scatter_half_width(surface());
-    SurfaceValue const value = surface().at(place, *trend);
-    return SurfaceValue{value.efficiency, std::hypot(value.half_width, scatter, numerical_error())};
+    return with_scatter(surface().at(place, *trend));
+}
+
+std::optional<SurfaceValue> near_value_at(Place const& place) {
+    auto const trend = trend_at(place);
+    if (!trend) return {};
+    return with_scatter(surface().nearly_at(place, *trend));
 }
 
 }  // namespace vibrotrough::atlas

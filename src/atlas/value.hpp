@@ -42,6 +42,9 @@ double distance_between(Place const& one, Place const& other);
 /// beyond their own intervals, and their numerical errors.
 std::optional<SurfaceValue> value_at(Place const& place);
 
+/// value_at() in a twentieth of the time, nearly: by one draw of the hyperparameters. For searches.
+std::optional<SurfaceValue> near_value_at(Place const& place);
+
 /// The efficiency alone of value_at(), which takes a fraction of the time.
 std::optional<double> efficiency_at(Place const& place);
 

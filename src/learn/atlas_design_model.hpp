@@ -12,13 +12,11 @@ struct KnownGrains {
     double diameter;                                 ///< m, > 0
     std::optional<Uncertain> rolling_friction = {};  ///< coefficient; nothing: anything in the atlas
     std::optional<Uncertain> friction = {};          ///< between grains; nothing: anything in the atlas
-    std::optional<double> depth = {};                ///< m, of their layer; nothing: anything in the atlas
 };
 
 /// The atlas of simulated layers as a model by which a machine can be designed. What is not known of the
-/// grains, and a depth that is not known yet, is in the middle of the atlas. What each may change at the
-/// drive, while the others stay, is part of the model's uncertainty: its `sources`, which add up in squares.
-/// A depth beyond the atlas counts as its nearest one, and untested() says so.
+/// grains is in the middle of the atlas. What each may change at the layer, while the others stay, is part of
+/// the model's uncertainty: its `sources`, which add up in squares. Beyond the atlas untested() says so.
 /// @param discrepancy  standard deviation of what the atlas misses of a real layer, in velocity efficiency
 /// @param friction     of the material on the trough, at which that is looked at; 0: the middle of the atlas
 /// @throws core::InputError when the friction of the grains lies outside of the atlas

@@ -22,13 +22,13 @@ double root_mean_square(SpeedDistribution const& speeds, std::vector<double> con
 
 /// What the model itself, its unknown grains and the settings of the machine leave open.
 std::vector<SourceInParts> sources_in_parts(RiskSearch const& search, DesignModel const& model,
-                                            theory::Drive const& drive, SpeedDistribution const& speeds) {
+                                            DesignLayer const& layer, SpeedDistribution const& speeds) {
     std::size_t const count = speeds.means.size();
     std::vector<SourceInParts> all;
     if (model.sources)
-        for (OwnSource const& one : model.sources(drive))
-            all.push_back({one.name, std::vector<double>(count, one.sd * drive.trough_speed())});
-    SettingSpread const spread = search.spread_of_settings(drive, model);
+        for (OwnSource const& one : model.sources(layer))
+            all.push_back({one.name, std::vector<double>(count, one.sd * layer.drive.trough_speed())});
+    SettingSpread const spread = search.spread_of_settings(layer, model);
     all.push_back({"stroke", std::vector<double>(count, spread.amplitude)});
     all.push_back({"vibration angle", std::vector<double>(count, spread.vibration_angle)});
     std::vector<double> density;
@@ -55,14 +55,13 @@ SpeedDistribution without(SpeedDistribution speeds, SourceInParts const& source)
 }  // namespace
 
 std::vector<BudgetShare> budget_of(RiskSearch const& search, DesignModel const& model,
-                                   theory::Drive const& drive, double depth) {
+                                   DesignLayer const& layer) {
     DesignTask const& task = search.task();
-    std::optional<double> in_grains;
-    if (task.grain_diameter) in_grains = depth / *task.grain_diameter;
-    SpeedDistribution const speeds = search.speeds(drive, model, in_grains);
-    auto const median = model.at(drive, task.friction.median);
+    theory::Drive const& drive = layer.drive;
+    SpeedDistribution const speeds = search.speeds(layer, model);
+    auto const median = model.at(layer, task.friction.median);
     if (!median || std::ranges::any_of(speeds.means, [](double mean) { return mean < -100; })) return {};
-    double const flow = task.bulk_density * task.width * depth;
+    double const flow = task.bulk_density * task.width * layer.depth;
     double const sure = speeds.exceeded_with(task.confidence);
     std::vector<BudgetShare> all;
     auto const add = [&](std::string const& source, double sd, SpeedDistribution const& known) {
@@ -72,7 +71,7 @@ std::vector<BudgetShare> budget_of(RiskSearch const& search, DesignModel const& 
     SpeedDistribution const one_friction{
         {1}, {median->efficiency * drive.trough_speed()}, {root_mean_square(speeds, speeds.sds)}};
     add("friction on the trough", speeds.sd_of_means(), one_friction);
-    for (SourceInParts const& one : sources_in_parts(search, model, drive, speeds))
+    for (SourceInParts const& one : sources_in_parts(search, model, layer, speeds))
         add(one.name, root_mean_square(speeds, one.sds), without(speeds, one));
     std::ranges::sort(all, std::greater(), &BudgetShare::sd);
     return all;

@@ -48,15 +48,12 @@ class Correction {
             numerical_error_ = std::max(numerical_error_, layer.numerical_error);
     }
 
-    std::optional<ModelEfficiency> at(theory::Drive const& drive, double friction) const {
-        auto const value = model_.at(drive, friction);
-        if (!value) return {};
-        double const expected = expected_error(drive, *value);
-        auto const error = error_at(drive, friction);
-        return ModelEfficiency{value->efficiency + expected * error.mean, expected * error.sd,
-                               numerical_error_ / atlas::deviations_in_half_width};
+    std::optional<ModelEfficiency> at(DesignLayer const& layer, double friction) const {
+        return corrected(model_.at(layer, friction), layer.drive, friction);
     }
-
+    std::optional<ModelEfficiency> nearly_at(DesignLayer const& layer, double friction) const {
+        return corrected(model_.quickly_at(layer, friction), layer.drive, friction);
+    }
     std::optional<std::string> untested(theory::Drive const& drive, double friction,
                                         std::optional<double> depth) const {
         if (error_at(drive, friction).sd <= known_share) return {};
@@ -64,6 +61,15 @@ class Correction {
     }
 
   private:
+    std::optional<ModelEfficiency> corrected(std::optional<ModelEfficiency> const& value,
+                                             theory::Drive const& drive, double friction) const {
+        if (!value) return {};
+        double const expected = expected_error(drive, *value);
+        auto const error = error_at(drive, friction);
+        return ModelEfficiency{value->efficiency + expected * error.mean, expected * error.sd,
+                               numerical_error_ / atlas::deviations_in_half_width};
+    }
+
     double expected_error(theory::Drive const& drive, ModelEfficiency const& value) const {
         return std::max(least_error, std::hypot(model_.missed(drive, {}), value.sd()));
     }
@@ -76,7 +82,7 @@ class Correction {
         std::vector<SimulatedLayer> known;
         std::vector<ModelEfficiency> said;
         for (SimulatedLayer const& layer : layers) {
-            auto const value = model_.of_layer(layer.depth).at(layer.drive, layer.friction);
+            auto const value = model_.at({layer.drive, layer.depth}, layer.friction);
             if (!value) continue;
             known.push_back(layer);
             said.push_back(*value);
@@ -112,21 +118,20 @@ DesignModel corrected_design_model(DesignModel const& model, std::vector<Simulat
                                    double diameter) {
     auto const correction = std::make_shared<Correction const>(model, layers, diameter);
     DesignModel corrected{.name = model.name, .discrepancy = 0};
-    corrected.at = [correction](theory::Drive const& d, double friction) {
-        return correction->at(d, friction);
+    corrected.at = [correction](DesignLayer const& layer, double friction) {
+        return correction->at(layer, friction);
+    };
+    corrected.nearly_at = [correction](DesignLayer const& layer, double friction) {
+        return correction->nearly_at(layer, friction);
     };
     corrected.outside = [correction](theory::Drive const& d, double friction, std::optional<double> depth) {
         return correction->untested(d, friction, depth);
     };
     corrected.narrowed = model.narrowed;
     corrected.excess = model.excess;
+    corrected.depths = model.depths;
     corrected.known_range = model.known_range;
-    corrected.is_slow = model.is_slow;
     corrected.remarks = model.remarks;
-    if (model.with_depth)
-        corrected.with_depth = [model, layers, diameter](double depth) {
-            return corrected_design_model(model.of_layer(depth), layers, diameter);
-        };
     return corrected;
 }
 

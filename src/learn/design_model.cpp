@@ -79,11 +79,15 @@ std::optional<std::string> DesignModel::untested(theory::Drive const& drive, dou
         if (auto why = outside(drive, friction, depth)) return why;
     }
     if (errors.empty() || discrepancy || uses_calibrated_discrepancy) return {};
+    if (!depth)
+        return "the diameter of the grains is not given, on which depends how far the speed may be off; add "
+               "--grain-diameter";
     if (known_error(errors, point.throw_number, point.tan_inclination, depth)) return {};
     return fmt::format(
-        "no simulated layer tells what {} misses at throw number {:.3g} and tan(alpha) {:.3g}{}", name,
-        point.throw_number, point.tan_inclination,
-        depth ? fmt::format(" in a layer {:.3g} diameters deep", *depth) : "");
+        "no simulated layer tells what {} misses at throw number {:.3g} and tan(alpha) {:.3g} in a layer "
+        "{:.3g} "
+        "diameters deep",
+        name, point.throw_number, point.tan_inclination, *depth);
 }
 
 DesignModel point_mass_design_model(std::optional<double> discrepancy) {
@@ -92,8 +96,8 @@ DesignModel point_mass_design_model(std::optional<double> discrepancy) {
                       .discrepancy = discrepancy,
                       .errors = point_mass_errors(),
                       .is_point_mass = true};
-    model.at = [solver](theory::Drive const& d, double friction) -> std::optional<ModelEfficiency> {
-        double const eta = (*solver)(point_of(d, friction)).velocity_efficiency;
+    model.at = [solver](DesignLayer const& layer, double friction) -> std::optional<ModelEfficiency> {
+        double const eta = (*solver)(point_of(layer.drive, friction)).velocity_efficiency;
         if (!std::isfinite(eta)) return {};
         return ModelEfficiency{eta, 0};
     };
@@ -111,21 +115,19 @@ DesignModel rolling_layer_design_model(std::optional<Uncertain> const& rolling_f
                                        std::optional<double> discrepancy, double friction_looked_at) {
     Uncertain const known = rolling_friction.value_or(unknown_rolling_friction());
     auto const law = std::make_shared<LawOfGrains>(known, friction_looked_at);
-    DesignModel model{.name = "the rolling-layer law",
-                      .discrepancy = discrepancy,
-                      .errors = rolling_layer_errors(),
-                      .is_slow = true};
-    model.at = [law](theory::Drive const& d, double friction) -> std::optional<ModelEfficiency> {
-        auto const eta = law->efficiency(d, friction);
+    DesignModel model{
+        .name = "the rolling-layer law", .discrepancy = discrepancy, .errors = rolling_layer_errors()};
+    model.at = [law](DesignLayer const& layer, double friction) -> std::optional<ModelEfficiency> {
+        auto const eta = law->efficiency(layer.drive, friction);
         if (!eta) return {};
-        return ModelEfficiency{*eta, law->spread(d)};
+        return ModelEfficiency{*eta, law->spread(layer.drive)};
     };
     std::string const name = rolling_friction ? "rolling friction"
                                               : fmt::format("rolling friction (not given: {:.3g} to {:.3g})",
                                                             known.low(), known.high());
     if (known.sd > 0)
-        model.sources = [law, name](theory::Drive const& d) {
-            return std::vector<OwnSource>{{name, law->spread(d)}};
+        model.sources = [law, name](DesignLayer const& layer) {
+            return std::vector<OwnSource>{{name, law->spread(layer.drive)}};
         };
     double const most = unknown_rolling_friction().high();
     model.outside = [known, most](theory::Drive const& d, double friction,

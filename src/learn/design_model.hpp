@@ -14,7 +14,13 @@
 
 namespace vibrotrough::learn {
 
-/// What a model says of a drive.
+/// A layer on a vibrating trough: what a model of the conveying speed is asked about.
+struct DesignLayer {
+    theory::Drive drive;  ///< of the trough
+    double depth;         ///< m, of the layer
+};
+
+/// What a model says of a layer.
 struct ModelEfficiency {
     double efficiency;       ///< velocity efficiency
     double statistics_sd;    ///< standard deviation of its statistical uncertainty; 0 for an exact theory
@@ -36,39 +42,44 @@ struct DesignModel {
     /// Standard deviation of what it misses, in velocity efficiency, >= 0; nothing: as `errors` say.
     std::optional<double> discrepancy;
     std::span<ModelError const> errors = {};  ///< what simulated layers say of its error
-    /// The velocity efficiency at a drive and a friction; nothing when the material has no steady speed.
-    std::function<std::optional<ModelEfficiency>(theory::Drive const&, double friction)> at = {};
+    /// The velocity efficiency of a layer at a friction; nothing when the material has no steady speed.
+    std::function<std::optional<ModelEfficiency>(DesignLayer const&, double friction)> at = {};
+    /// The same in a fraction of the time, nearly: by this a machine is searched for. Empty: `at` is fast.
+    std::function<std::optional<ModelEfficiency>(DesignLayer const&, double friction)> nearly_at = {};
     /// The parts of the statistical uncertainty that `at` gives which are those of known inputs; may be
     /// empty.
-    std::function<std::vector<OwnSource>(theory::Drive const&)> sources = {};
+    std::function<std::vector<OwnSource>(DesignLayer const&)> sources = {};
     /// The drives of a space at which the model is known. @throws std::invalid_argument when there are none
     std::function<theory::DriveSpace(theory::DriveSpace)> narrowed = {};
+    theory::Range depths{0, 1e3};  ///< m, of the layers at which the model is known
     /// How far a drive is outside what the model knows, relatively; zero or less inside.
     std::function<double(theory::Drive const&)> excess = {};
     std::string known_range = {};  ///< where it is known, for people; empty: everywhere, or told elsewhere
     bool is_point_mass = false;    ///< whether it is the theory alone
     /// Whether the discrepancies of a calibrated friction replace `discrepancy`.
     bool uses_calibrated_discrepancy = false;
-    bool is_slow = false;  ///< whether an answer takes a hundred times as long as one of the point mass
     /// Further reasons why its error is not known, see untested(); empty: none.
     std::function<std::optional<std::string>(theory::Drive const&, double friction,
                                              std::optional<double> depth)>
         outside = {};
     std::vector<std::string> remarks = {};  ///< what speaks against it, in whole sentences
-    /// The model for a layer of a depth in m; empty where what it says does not depend on the depth. The
-    /// model itself does not know how deep the layer is.
-    std::function<DesignModel(double depth)> with_depth = {};
 
-    /// The model for a layer of a depth in m, > 0.
-    DesignModel of_layer(double depth) const { return with_depth ? with_depth(depth) : *this; }
+    /// `nearly_at`, or `at` where that is fast.
+    std::optional<ModelEfficiency> quickly_at(DesignLayer const& layer, double friction) const {
+        return nearly_at ? nearly_at(layer, friction) : at(layer, friction);
+    }
     /// Standard deviation of what it misses at a drive; where nothing is known, the largest that is.
     /// @param depth  of the layer, in diameters of its grains, if it is known
     double missed(theory::Drive const& drive, std::optional<double> depth) const;
     /// Why its error is not known at a drive, a friction and a depth, without a full stop; nothing where it
-    /// is.
+    /// is. What simulated layers say of an error holds for depths in grains, which must then be known.
     std::optional<std::string> untested(theory::Drive const& drive, double friction,
                                         std::optional<double> depth) const;
 };
+
+/// Grains with so large a rolling friction, or a larger one, do not roll: the layers of
+/// validation/model_errors that tell the error of the point mass have 0.5.
+inline constexpr double least_friction_without_rolling = 0.5;
 
 /// The point-mass theory, for grains that do not roll. @param discrepancy  nothing: as
 /// validation/model_errors says

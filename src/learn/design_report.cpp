@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -62,19 +61,15 @@ Json as_json(ModelForecast const& f, bool is_known) {
              f.efficiency ? Json(atlas::deviations_in_half_width * f.efficiency->sd()) : Json(nullptr)}};
 }
 
-/// The three frictions of a campaign that checks a design; fewer when they are the same to three digits.
-std::string frictions(KnownFriction const& known) {
-    std::set<std::string> texts;
-    for (double const mu : {known.low + (known.median - known.low) / 3, known.median,
-                            known.high - (known.high - known.median) / 3})
-        texts.insert(fmt::format("{:.3f}", mu));
-    return fmt::format("{}", fmt::join(texts, ", "));
-}
-
 /// "frictions of 0.25 to 0.35", or "a friction of 0.3" where it is known exactly.
 std::string range_of_friction(KnownFriction const& known) {
     std::string const low = fmt::format("{:.3g}", known.low), high = fmt::format("{:.3g}", known.high);
-    return low == high ? "a friction of " + low : fmt::format("frictions of {} to {}", low, high);
+    if (low == high) return "a friction of " + low;
+    std::string const cut =
+        known.draws.empty()
+            ? fmt::format(", which is {:.3g} +- three standard deviations of {:.3g}", known.median, known.sd)
+            : "";
+    return fmt::format("frictions of {} to {}{}", low, high, cut);
 }
 
 std::string machine_text(DesignTask const& t, RiskDesign const& d) {
@@ -119,11 +114,10 @@ int troughs_needed(DesignTask const& t, RiskDesign const& d) {
     return static_cast<int>(std::ceil(*d.width_needed / t.width - 1e-9));
 }
 
-/// What the fastest machine carries at the confidence, as a sentence.
-std::string most_that_is_carried(DesignTask const& t, RiskDesign const& d) {
-    double const flow = t.bulk_density * t.width * t.depth.high * d.sure_speed;
-    return fmt::format("The fastest one carries {} t/h so surely, in a layer of {:.4g} mm.",
-                       core::plain_number(tonnes_per_hour * flow, 3), 1e3 * t.depth.high);
+/// What the machine carries at the confidence, as a sentence.
+std::string most_that_is_carried(RiskDesign const& d) {
+    return fmt::format("The one that comes nearest carries {} t/h so surely, in a layer of {:.4g} mm.",
+                       core::plain_number(tonnes_per_hour * d.sure_flow, 3), 1e3 * d.depth);
 }
 
 /// A row of the table of models.
@@ -228,13 +222,13 @@ std::string first_sentence(DesignTask const& t, RiskDesign const& d) {
                     100 * t.confidence);
     // Beyond this, a probability says no more than "never".
     if (d.probability >= 0.001)
-        text += fmt::format("; the fastest one does with {:.1f} %", 100 * d.probability);
+        text += fmt::format("; the one that comes nearest does with {:.1f} %", 100 * d.probability);
     if (!d.width_needed)
         return text +
-               ". So surely, even the fastest one conveys nothing: ask for a lower confidence, or know the "
+               ". So surely, none conveys anything: ask for a lower confidence, or know the "
                "friction better.";
     return text + fmt::format(". {} It would take a trough {:.0f} mm wide, or {} troughs side by side.",
-                              most_that_is_carried(t, d), std::ceil(1e3 * *d.width_needed),
+                              most_that_is_carried(d), std::ceil(1e3 * *d.width_needed),
                               troughs_needed(t, d));
 }
 
@@ -286,6 +280,7 @@ Json design_json(DesignTask const& t, RiskDesign const& d) {
               {"confidence", t.confidence},
               {"probability", if_known(d, d.probability)},
               {"sure_speed_m_per_s", if_known(d, d.sure_speed)},
+              {"sure_mass_flow_t_per_h", if_known(d, tonnes_per_hour * d.sure_flow)},
               {"untested", d.untested ? Json(*d.untested) : Json(nullptr)},
               {"exciter", exciter_json(t, d)},
               {"objective", name_of(t.objective)},
@@ -316,66 +311,6 @@ Json design_page_data(DesignTask const& t, RiskDesign const& d) {
     for (std::size_t i = 0; i < d.beside.size(); ++i)
         add_quantiles(json["models_beside"][i], d.beside[i], !d.beside[i].untested);
     return json;
-}
-
-std::string design_campaign(DesignTask const& t, RiskDesign const& d, CheckedLayer const& layer) {
-    theory::Drive const& m = d.drive;
-    double const rolling = t.rolling_friction.value_or(unknown_rolling_friction().mean);
-    std::string const why =
-        t.rolling_friction ? ""
-                           : fmt::format("            # not known: the middle of {:g} to {:g}",
-                                         unknown_rolling_friction().low(), unknown_rolling_friction().high());
-    std::string const rotation =
-        rolling > 0 ? fmt::format("rotation = \"rolling\"\nrolling_friction = {:.4g}{}\n", rolling, why) : "";
-    double const mm = 1e3 * layer.diameter, depth = std::max(1e3 * d.depth, least_simulated_depth * mm);
-    // Waves and convection need a part that is as long as the layer is deep and as the stroke along the
-    // trough.
-    double const stroke_along = 2e3 * m.amplitude * std::cos(m.vibration_angle);
-    double const length = std::ceil(std::max({layer.box_length * mm, 1.1 * depth, 1.1 * stroke_along}));
-    return fmt::format(
-        R"(# Checks a design of 'vibrotrough design' with grains: {:.4g} t/h on a trough {:.4g} m wide, layer {:.4g} mm deep.
-# The grains are assumed: spheres of {:.4g} mm that roll {}. Put in what you know of yours.
-#     vibrotrough check FILE
-#     vibrotrough run FILE
-#     vibrotrough compare runs/design_check        # mass flow in t/h with its interval
-
-[campaign]
-name = "design_check"
-
-[trough]
-inclination = "{:.6g} deg"
-vibration_angle = "{:.6g} deg"
-stroke = "{:.6g} mm"
-frequency = "{:.8g} 1/min"
-width = "{:.6g} m"
-friction = {:.3f}                 # the sweep below also has the ends of its uncertainty
-restitution = 0.5                 # assumed
-
-[grains]
-diameter = "{:.4g} mm"
-diameter_spread = 0.1             # assumed
-bulk_density = "{:.6g} kg/m3"
-poisson_ratio = 0.35
-friction = 0.5                    # assumed
-restitution = 0.5                 # assumed
-{}
-[layer]
-length = "{:.4g} mm"              # of a part of the trough, continued periodically
-width = "{:.4g} mm"
-height = "{:.4g} mm"
-
-[measure]
-packings = 4
-half_width = {:.4g}
-
-[sweep]
-"trough.friction" = [{}]
-)",
-        tonnes_per_hour * t.mass_flow, t.width, 1e3 * d.depth, mm,
-        rolling > 0 ? "against rolling friction" : "freely", m.inclination / degree,
-        m.vibration_angle / degree, 2e3 * m.amplitude, 60 * m.frequency, t.width, t.friction.median, mm,
-        t.bulk_density, rotation, length, layer.box_width * mm, depth, layer.half_width,
-        frictions(t.friction));
 }
 
 }  // namespace vibrotrough::learn

@@ -8,18 +8,6 @@
 
 namespace vibrotrough::learn {
 
-/// Diameters of its grains, of the thinnest layer that a campaign simulates of a design.
-inline constexpr double least_simulated_depth = 3;
-
-/// The layer that a campaign simulates of a design.
-struct CheckedLayer {
-    double diameter;           ///< m, of the grains, > 0
-    double half_width = 0.05;  ///< wanted of its velocity efficiency
-    /// In diameters: of the part that is continued periodically. It is longer than this where the depth or
-    /// the stroke asks for it.
-    double box_length = 12, box_width = 6;
-};
-
 /// How an objective is called on the command line, in JSON and in sentences: "least-machine-number".
 std::string name_of(Objective objective);
 
@@ -37,9 +25,5 @@ nlohmann::ordered_json design_json(DesignTask const& task, RiskDesign const& des
 /// What postprocess/decision_page.py writes the page of a design from: the numbers of design_json(), the
 /// task, and quantiles of the mass flow.
 nlohmann::ordered_json design_page_data(DesignTask const& task, RiskDesign const& design);
-
-/// The text of a campaign file that simulates a design with spheres, at the median and at the ends of the
-/// central 95 % of the friction. What the task does not know of the grains is assumed, and the file says so.
-std::string design_campaign(DesignTask const& task, RiskDesign const& design, CheckedLayer const& layer);
 
 }  // namespace vibrotrough::learn

@@ -1,12 +1,18 @@
 #pragma once
 
 #include "atlas/layer_load.hpp"
-#include "learn/model_choice.hpp"
+#include "learn/risk_design.hpp"
 
 #include <functional>
 #include <optional>
 
 namespace vibrotrough::learn {
+
+/// A design, and the task with what follows from the design.
+struct ChosenDesign {
+    DesignTask task;    ///< whose machine carries the layer of the design
+    RiskDesign design;  ///< of it
+};
 
 /// kg, of the material on the trough of a task. @param depth  m, of the layer
 double material_on(DesignTask const& task, double depth);

@@ -16,7 +16,6 @@ constexpr double in_the_tail = 0.0015;   // of the distribution, on each side, i
 constexpr std::size_t least_draws = 100;
 constexpr int uniform_draws = 20000;  // that stand for a range: five lie beyond 99.9 %
 constexpr int middle_parts = 5;       // of few_parts(), between the tails
-constexpr int equal_parts = 400;      // of many_parts()
 constexpr int parts_of_a_tail = 10;   // of many_parts(), and as many next to the tail
 
 double normal_quantile(double p) {
@@ -88,6 +87,15 @@ std::vector<FrictionPart> KnownFriction::parts(std::vector<double> const& ends) 
     return all;
 }
 
+theory::Range KnownFriction::central(double share) const {
+    double const tail = (1 - share) / 2;
+    if (!draws.empty())
+        return {draws[place(tail, draws.size() - 1)], draws[place(1 - tail, draws.size() - 1)]};
+    if (sd == 0) return {median, median};
+    double const half = sd * normal_quantile(1 - tail);
+    return {std::max(least_friction, median - half), median + half};
+}
+
 std::vector<double> few_parts(double confidence) {
     double const tail = std::min(1 - confidence, 0.4);
     double const before = 0.8 * tail, after = 1.2 * tail;
@@ -97,7 +105,7 @@ std::vector<double> few_parts(double confidence) {
     return ends;
 }
 
-std::vector<double> many_parts(double confidence) {
+std::vector<double> many_parts(double confidence, int equal_parts) {
     double const tail = 1 - confidence;
     std::vector<double> ends;
     for (int i = 0; i <= equal_parts; ++i) ends.push_back(static_cast<double>(i) / equal_parts);

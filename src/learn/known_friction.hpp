@@ -1,5 +1,7 @@
 #pragma once
 
+#include "theory/drive_search.hpp"
+
 #include <vector>
 
 namespace vibrotrough::learn {
@@ -24,6 +26,8 @@ struct KnownFriction {
     /// The parts of the distribution between some of its shares; one part when the friction is exact.
     /// @param ends  shares from 0 to 1, both included, in rising order
     std::vector<FrictionPart> parts(std::vector<double> const& ends) const;
+    /// The central part of the distribution. @param share  of it, in (0, 1)
+    theory::Range central(double share) const;
 };
 
 /// A friction that is distributed normally, cut at 0.01. @param sd  its standard uncertainty, >= 0
@@ -44,9 +48,10 @@ KnownFriction drawn_friction(std::vector<double> const& friction, std::vector<do
 /// without an error of its own. @param confidence  in [0.5, 1)
 std::vector<double> few_parts(double confidence);
 
-/// Shares that cut a distribution into the many parts by which a machine is judged: 400 equal ones, and
+/// Shares that cut a distribution into the many parts by which a machine is judged: equal ones, and
 /// twenty for the tail outside of the confidence and what is next to it, on each side.
 /// @param confidence  in [0.5, 1)
-std::vector<double> many_parts(double confidence);
+/// @param equal_parts  400 know the probability of a model without an error of its own to half a point
+std::vector<double> many_parts(double confidence, int equal_parts = 400);
 
 }  // namespace vibrotrough::learn

@@ -65,7 +65,11 @@ CalibratedFriction parse_calibration(std::string_view text) {
     Json const calibration = note::parse(text);
     for (Json const& parameter : note::list(calibration, "parameters")) {
         std::string const name = note::text(parameter, "name");
-        if (name == "friction" || name == "trough.friction") return friction_of(calibration, parameter);
+        if (name != "friction" && name != "trough.friction") continue;
+        CalibratedFriction known = friction_of(calibration, parameter);
+        if (auto const converged = calibration.find("converged"); converged != calibration.end())
+            known.converged = *converged == true;
+        return known;
     }
     throw note::Fault("it holds no calibrated friction");
 }

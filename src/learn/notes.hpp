@@ -23,6 +23,7 @@ struct CalibratedFriction {
     /// One for each draw, with what the model misses in common, as if that were independent of the friction,
     /// which is too careful for a machine like the measured one; may be empty.
     std::vector<double> discrepancies = {};
+    bool converged = true;  ///< whether the chains of the calibration did; files of version 0.1 do not say it
 };
 
 /// The file of `theory calibrate --posterior`, or what it prints with --json.

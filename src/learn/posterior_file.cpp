@@ -13,6 +13,11 @@ PosteriorFriction read_posterior(std::string_view text, std::string const& file)
         "give what 'vibrotrough theory calibrate speeds.csv --free friction --posterior FILE' writes";
     try {
         CalibratedFriction const known = parse_calibration(text);
+        if (!known.converged)
+            throw core::InputError(fmt::format(
+                "{}: the chains of this calibration have not converged, so that its numbers must not be "
+                "used; calibrate again with fewer free quantities, or with narrower priors",
+                file));
         if (!known.draws.empty()) return {drawn_friction(known.draws, known.discrepancies), known.model};
         // 95 % of a normal distribution lie within 1.96 standard deviations.
         return {normal_friction(known.median, (known.high - known.low) / (2 * 1.959964)), known.model};

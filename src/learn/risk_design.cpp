@@ -19,13 +19,8 @@
 namespace vibrotrough::learn {
 namespace {
 
-constexpr double near_limit = 0.01;     // relative: a limit so close counts as active
-constexpr double depth_step = 1e-4;     // m, to which the depth is rounded up
-constexpr double largest_loss = 0.005;  // of the merit, by rounding the drive
-constexpr int exchanges = 8;
-constexpr double same_depth = 0.02;  // relative, between the layer of a design and that of its models
-constexpr int most_depths = 8;
-constexpr int corrections = 3;             // of what the search expects of the sure speed
+constexpr double near_limit = 0.01;        // relative: a limit so close counts as active
+constexpr double largest_loss = 0.005;     // of the merit, by rounding the drive
 constexpr double least_draws_in_tail = 5;  // of a posterior, beyond the confidence
 
 void check(DesignTask const& t) {
@@ -48,19 +43,6 @@ void check(DesignTask const& t) {
     }
 }
 
-/// The best drive that keeps the limit of the landing speed at every friction.
-std::optional<theory::Drive> best_at_every_friction(RiskSearch& search, Objective objective,
-                                                    bool must_reach) {
-    for (int i = 0; i < exchanges; ++i) {
-        auto const drive = search.best(objective, must_reach);
-        if (!drive || !search.task().landing_speed) return drive;
-        auto const worst = search.worst_landing(*drive);
-        if (worst.speed <= *search.task().landing_speed) return drive;
-        search.keep_landing_at(worst.friction, worst.speed);
-    }
-    return {};
-}
-
 /// A value on a grid of a step, below or above, within its range. A value that is fixed stays.
 double on_grid(double value, theory::Range const& r, double step, bool above) {
     if (r.low == r.high) return value;
@@ -79,54 +61,81 @@ theory::Drive rounded(theory::Drive const& d, theory::DriveSpace const& s, doubl
             on_grid(d.inclination, s.inclination, scale * degree / 2, above(3))};
 }
 
-/// The drive on the coarsest grid that costs little and keeps every limit; as it is when there is none.
-theory::Drive rounded(RiskSearch& search, theory::Drive const& drive, Objective objective, bool must_reach) {
-    double const merit = search.merit(drive, objective);
+/// A layer whose drive is on the coarsest grid that costs little and keeps every limit; as it is when there
+/// is none. @param must_carry  whether it must carry the mass flow, by a layer of any depth
+DesignLayer rounded(RiskSearch const& search, DesignLayer const& layer, bool must_carry) {
+    auto const merit_of = [&](DesignLayer const& one) {
+        return must_carry ? search.merit(one) : search.sure_speed(one);
+    };
+    double const merit = merit_of(layer);
     for (double scale : {1.0, 0.1, 0.01, 0.001}) {
-        std::vector<std::pair<double, theory::Drive>> candidates;
+        std::vector<std::pair<double, DesignLayer>> candidates;
         for (unsigned corner = 0; corner < 16; ++corner) {
-            theory::Drive const one = rounded(drive, search.space(), scale, corner);
-            double const value = search.merit(one, objective);
+            DesignLayer const one{rounded(layer.drive, search.space(), scale, corner), layer.depth};
+            double const value = merit_of(one);
             if (value >= merit - largest_loss * std::abs(merit)) candidates.emplace_back(value, one);
         }
-        std::ranges::stable_sort(candidates, std::greater(), &std::pair<double, theory::Drive>::first);
-        for (auto const& [value, one] : candidates)
-            if (search.keeps_limits(one, must_reach)) return one;
+        std::ranges::stable_sort(candidates, std::greater(), &std::pair<double, DesignLayer>::first);
+        for (auto const& [value, one] : candidates) {
+            if (!search.keeps_limits(one.drive)) continue;
+            if (!must_carry) return one;
+            if (auto const depth = search.carrying_depth(one.drive, one.depth)) return {one.drive, *depth};
+        }
     }
-    return drive;
+    if (!must_carry) return layer;
+    return {layer.drive, search.carrying_depth(layer.drive, layer.depth).value_or(layer.depth)};
 }
 
-/// The limits that a design lies on, within one per cent.
-std::vector<std::string> limits_at(DesignTask const& t, theory::DriveSpace const& space,
-                                   RiskDesign const& d) {
-    std::vector<std::string> active;
-    auto const ends = [&](char const* name, double value, theory::Range const& r, double in_unit,
-                          char const* unit) {
-        double const slack = near_limit * (r.high - r.low);
-        if (r.high == r.low) return;
-        if (value > r.high - slack)
-            active.push_back(fmt::format("{} <= {:.4g}{}", name, in_unit * r.high, unit));
-        if (value < r.low + slack)
-            active.push_back(fmt::format("{} >= {:.4g}{}", name, in_unit * r.low, unit));
-    };
-    constexpr double close = 1 - near_limit;
-    if (d.machine_number > close * space.max_machine_number)
-        active.push_back(fmt::format("machine number <= {:.4g}", space.max_machine_number));
-    if (d.throw_number > close * space.max_throw_number)
-        active.push_back(fmt::format("throw number <= {:.4g}", space.max_throw_number));
-    if (t.landing_speed && d.landing_speed > close * *t.landing_speed)
-        active.push_back(fmt::format("landing speed <= {:.4g} m/s", *t.landing_speed));
-    ends("speed of the drive", d.drive.frequency, space.frequency, 60, " 1/min");
-    ends("stroke", d.drive.amplitude, space.amplitude, 2000, " mm");
-    ends("vibration angle", d.drive.vibration_angle, space.vibration_angle, 1 / degree, " degrees");
-    ends("inclination", d.drive.inclination, space.inclination, 1 / degree, " degrees");
-    if (d.depth > close * t.depth.high)
-        active.push_back(fmt::format("layer depth <= {:.4g} mm", 1e3 * t.depth.high));
-    for (DesignModel const& model : t.models) {
-        if (model.excess(d.drive) > -near_limit)
-            active.push_back(fmt::format("the range that {} knows", model.name));
+/// Tells which end of a range a design lies on, and whose it is.
+class LimitList {
+  public:
+    /// @param asked    by the user
+    /// @param allowed  by the models as well
+    void add_ends(char const* name, double value, theory::Range const& asked, theory::Range const& allowed,
+                  double in_unit, char const* unit) {
+        double const slack = near_limit * (allowed.high - allowed.low);
+        if (allowed.high == allowed.low) return;
+        if (value > allowed.high - slack)
+            add(fmt::format("{} <= {:.4g}{}", name, in_unit * allowed.high, unit), allowed.high < asked.high);
+        if (value < allowed.low + slack)
+            add(fmt::format("{} >= {:.4g}{}", name, in_unit * allowed.low, unit), allowed.low > asked.low);
     }
-    return active;
+    void add_most(char const* name, double value, double asked, double allowed) {
+        if (value > (1 - near_limit) * allowed)
+            add(fmt::format("{} <= {:.4g}", name, allowed), allowed < asked * (1 - 1e-9));
+    }
+    void add(std::string const& text, bool is_of_model = false) {
+        all_.push_back(is_of_model ? text + " (nothing beyond is tested)" : text);
+    }
+    std::vector<std::string> const& all() const { return all_; }
+
+  private:
+    std::vector<std::string> all_;
+};
+
+/// The limits that a design lies on, within one per cent.
+std::vector<std::string> limits_at(RiskSearch const& search, RiskDesign const& d) {
+    DesignTask const& t = search.task();
+    theory::DriveSpace const &asked = t.space, &allowed = search.space();
+    LimitList list;
+    list.add_most("machine number", d.machine_number, asked.max_machine_number, allowed.max_machine_number);
+    list.add_most("throw number", d.throw_number, asked.max_throw_number, allowed.max_throw_number);
+    if (t.landing_speed && d.landing_speed > (1 - near_limit) * *t.landing_speed)
+        list.add(fmt::format("landing speed <= {:.4g} m/s", *t.landing_speed));
+    list.add_ends("speed of the drive", d.drive.frequency, asked.frequency, allowed.frequency, 60, " 1/min");
+    list.add_ends("stroke", d.drive.amplitude, asked.amplitude, allowed.amplitude, 2000, " mm");
+    list.add_ends("vibration angle", d.drive.vibration_angle, asked.vibration_angle, allowed.vibration_angle,
+                  1 / degree, " degrees");
+    list.add_ends("inclination", d.drive.inclination, asked.inclination, allowed.inclination, 1 / degree,
+                  " degrees");
+    double const deepest = search.depth().high;
+    if (d.depth > (1 - near_limit) * deepest)
+        list.add(fmt::format("layer depth <= {:.4g} mm", 1e3 * deepest), deepest < t.depth.high);
+    for (DesignModel const& model : t.models) {
+        if (!model.is_point_mass && model.excess(d.drive) > -near_limit)
+            list.add(fmt::format("the range that {} knows", model.name));
+    }
+    return list.all();
 }
 
 std::vector<std::string> warnings_at(DesignTask const& task, RiskDesign const& d) {
@@ -137,22 +146,12 @@ std::vector<std::string> warnings_at(DesignTask const& task, RiskDesign const& d
         warnings.push_back(fmt::format(
             "If the grains can roll, the theory alone is wrong here: at throw number {:.2f} simulated layers "
             "of spheres were conveyed {:.2g} times as fast as it says (level, tan(beta) 0.5, friction 0.23; "
-            "validation/why_theory_fails and rolling_layer). {} Use --model rolling-layer beside it, "
-            "and check the design with grains: --campaign FILE.",
+            "validation/why_theory_fails and rolling_layer). {} Give --grain-diameter, so that simulated "
+            "layers decide.",
             d.throw_number, *factor,
             *factor >= 1 ? "The mass flow is then on the safe side, but the layer is thinner than printed."
                          : "The mass flow may then not be reached."));
     }
-    std::vector<std::string> depths;
-    for (DesignModel const& model : task.models)
-        if (!model.errors.empty() && !model.discrepancy && !model.uses_calibrated_discrepancy)
-            depths.push_back(fmt::format("{:g} for {}", largest_depth(model.errors), model.name));
-    if (!depths.empty() && !task.grain_diameter && !d.untested)
-        warnings.push_back(
-            fmt::format("The depth in grains is not known: the probability holds only if {:.3g} mm are no "
-                        "more diameters than "
-                        "the simulated layers had ({}). With --grain-diameter the program judges it.",
-                        1e3 * d.depth, fmt::join(depths, ", ")));
     for (DesignModel const& model : task.models)
         warnings.insert(warnings.end(), model.remarks.begin(), model.remarks.end());
     return warnings;
@@ -169,33 +168,11 @@ void describe_motion(DesignTask const& task, RiskDesign& d) {
         theory::plastic_quantities(motion, point, {d.drive.amplitude, task.space.gravity}).mean_power;
 }
 
-/// The best machine that reaches the mass flow, rounded; nothing when none is better than the fastest one.
-/// The search knows the sure speed by few frictions: where many say that what it found does not reach the
-/// mass flow, it expects less and begins again.
-std::optional<theory::Drive> best_that_reaches(RiskSearch& search, theory::Drive const& fastest) {
-    Objective const objective = search.task().objective;
-    search.trust_at(fastest);
-    for (int i = 0; i < corrections; ++i) {
-        auto const found = best_at_every_friction(search, objective, true);
-        if (!found) return {};
-        theory::Drive const drive = rounded(search, *found, objective, true);
-        if (search.sure_speed(drive) >= search.needed()) {
-            if (search.merit(drive, objective) > search.merit(fastest, objective)) return drive;
-            return {};
-        }
-        search.trust_at(*found);
-    }
-    return {};
-}
-
-/// What a model says of a machine with a layer of a depth, in m.
-ModelForecast forecast(RiskSearch const& search, DesignModel const& model, theory::Drive const& drive,
-                       double depth) {
+/// What a model says of a layer.
+ModelForecast forecast(RiskSearch const& search, DesignModel const& model, DesignLayer const& layer) {
     DesignTask const& task = search.task();
-    std::optional<double> in_grains;
-    if (task.grain_diameter) in_grains = depth / *task.grain_diameter;
-    SpeedDistribution const speeds = search.speeds(drive, model, in_grains);
-    double const flow = task.bulk_density * task.width * depth, median = speeds.exceeded_with(0.5);
+    SpeedDistribution const speeds = search.speeds(layer, model);
+    double const flow = task.bulk_density * task.width * layer.depth, median = speeds.exceeded_with(0.5);
     ModelForecast f{model.name,
                     median,
                     speeds.exceeded_with(task.confidence),
@@ -204,107 +181,105 @@ ModelForecast forecast(RiskSearch const& search, DesignModel const& model, theor
                     flow * median,
                     speeds.probability_above(task.mass_flow / flow * (1 - 1e-9)),
                     {},
-                    model.at(drive, task.friction.median),
-                    model.untested(drive, task.friction.median, in_grains)};
+                    model.at(layer, task.friction.median),
+                    model.untested(layer.drive, task.friction.median, task.in_grains(layer.depth))};
     f.flow_sd = flow * speeds.sd();
-    f.budget = budget_of(search, model, drive, depth);
+    f.budget = budget_of(search, model, layer);
     for (double const share : quantile_shares())
         f.flow_quantiles.push_back(flow * speeds.exceeded_with(1 - share));
     return f;
 }
 
-/// @param given_depth  m, of a layer that is there; nothing: as deep as the mass flow needs
-RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive const& drive,
-                     std::optional<double> given_depth = {}) {
+RiskDesign described(RiskSearch const& search, DesignLayer const& layer) {
+    DesignTask const& task = search.task();
     RiskDesign d{};
-    d.drive = drive;
-    d.throw_number = drive.throw_number(task.space.gravity);
-    d.machine_number = drive.machine_number(task.space.gravity);
-    d.sure_speed = search.sure_speed(drive);
-    d.feasible = d.sure_speed >= search.needed();
-    double const per_depth = task.bulk_density * task.width;  // kg/s for each m of depth and m/s of speed
-    double const depth = d.sure_speed > 0 ? task.mass_flow / (per_depth * d.sure_speed) : task.depth.high;
-    d.depth = given_depth.value_or(
-        std::clamp(std::ceil(depth / depth_step - 1e-9) * depth_step, task.depth.low, task.depth.high));
-    if (given_depth) d.feasible = depth <= *given_depth * (1 + 1e-9);
-    for (DesignModel const& model : task.models) {
-        d.forecasts.push_back(forecast(search, model, drive, d.depth));
-        if (!d.untested) d.untested = d.forecasts.back().untested;
-    }
+    d.drive = layer.drive;
+    d.depth = layer.depth;
+    d.throw_number = layer.drive.throw_number(task.space.gravity);
+    d.machine_number = layer.drive.machine_number(task.space.gravity);
+    d.sure_speed = search.sure_speed(layer);
+    d.sure_flow = task.bulk_density * task.width * layer.depth * d.sure_speed;
+    d.untested = untested(task, layer);
+    d.feasible = d.sure_flow >= task.mass_flow * (1 - 1e-9) && !d.untested;
+    for (DesignModel const& model : task.models) d.forecasts.push_back(forecast(search, model, layer));
     for (DesignModel const& model : task.beside)
-        if (model.is_point_mass || model.excess(drive) <= 0)
-            d.beside.push_back(forecast(search, model.of_layer(d.depth), drive, d.depth));
-    d.feasible = d.feasible && !d.untested;
+        if (model.is_point_mass || model.excess(layer.drive) <= 0)
+            d.beside.push_back(forecast(search, model, layer));
     if (!d.feasible && !d.untested && d.sure_speed > 0)
-        d.width_needed = task.mass_flow / (task.bulk_density * task.depth.high * d.sure_speed);
+        d.width_needed = task.mass_flow / (task.bulk_density * layer.depth * d.sure_speed);
     d.probability = 1;
     for (ModelForecast const& f : d.forecasts) d.probability = std::min(d.probability, f.probability);
-    d.landing_speed = search.worst_landing(drive).speed;
+    d.landing_speed = search.worst_landing(layer.drive).speed;
     describe_motion(task, d);
-    d.active_limits = limits_at(task, search.space(), d);
+    d.active_limits = limits_at(search, d);
     d.warnings = warnings_at(task, d);
     return d;
 }
 
-/// The same task with models that know how deep the layer is, in m.
-DesignTask at_depth(DesignTask task, double depth) {
-    for (DesignModel& model : task.models) model = model.of_layer(depth);
-    return task;
-}
-
-/// The best machine whose speed of the drive may be anything within its range, by models as they are.
-RiskDesign design_by_these(DesignTask const& task) {
+/// The best machine among some layers; nothing when there is none among them.
+std::optional<RiskDesign> best_among(DesignTask const& task, RiskSearch::Layers layers) {
     theory::DriveSpace const space = allowed_space(task);
-    // The search begins at the least vigorous drive.
     theory::Drive const weakest{space.frequency.low, space.amplitude.low, space.vibration_angle.low,
                                 (space.inclination.low + space.inclination.high) / 2};
     if (theory::excess(space, weakest) > 0) throw std::invalid_argument(why_no_machine(task));
-    RiskSearch search(task, space);
-    auto const fastest = best_at_every_friction(search, Objective::fastest, false);
-    if (!fastest) throw std::invalid_argument(why_no_machine(task));
-    bool const reaches = search.sure_speed(*fastest) >= search.needed();
-    if (reaches && task.objective != Objective::fastest) {
-        if (auto const better = best_that_reaches(search, *fastest)) return described(task, search, *better);
+    RiskSearch search(task, layers);
+    auto const strongest = search.strongest();
+    if (!strongest) return {};
+    DesignLayer const& most = strongest->layer;
+    if (search.sure_flow(most) < task.mass_flow) return described(search, rounded(search, most, false));
+    auto const better = search.best_that_carries(*strongest);
+    return described(search, rounded(search, better ? better->layer : most, true));
+}
+
+/// Why the models of a task know no layer within its limits, where another model has found a machine.
+std::string why_not_known(DesignTask const& task, DesignLayer const& layer) {
+    if (task.unknown_material) return *task.unknown_material;
+    if (auto const why = untested(task, layer)) return *why;
+    return task.models.front().name + " knows no layer within the limits";
+}
+
+/// A machine by the model that stands in where those of the task know no layer within the limits.
+RiskDesign by_stand_in(DesignTask const& task) {
+    DesignTask other = task;
+    other.models = {*task.stand_in};
+    std::erase_if(other.beside, [&](DesignModel const& m) { return m.name == task.stand_in->name; });
+    auto design = best_among(other, RiskSearch::Layers::all);
+    if (!design) throw std::invalid_argument(why_no_machine(other));
+    design->untested = why_not_known(task, {design->drive, design->depth});
+    design->feasible = false;
+    design->width_needed.reset();
+    return *design;
+}
+
+/// The best machine whose speed of the drive may be anything within its range.
+RiskDesign design_at_any_speed(DesignTask const& task) {
+    if (!task.unknown_material) {
+        try {
+            if (auto found = best_among(task, RiskSearch::Layers::tested)) return *found;
+        } catch (std::invalid_argument const&) {
+            if (!task.stand_in) throw;
+        }
     }
-    return described(task, search,
-                     rounded(search, *fastest, reaches ? task.objective : Objective::fastest, reaches));
+    if (task.stand_in) return by_stand_in(task);
+    if (auto found = best_among(task, RiskSearch::Layers::all)) return *found;
+    throw std::invalid_argument(why_no_machine(task));
 }
 
 /// How good a machine is, to be compared with one for another speed of the drive: first whether it reaches
-/// the mass flow, then the objective; without the mass flow, the sure speed.
-std::pair<bool, double> worth(DesignTask const& task, RiskDesign const& d) {
-    if (!d.feasible) return {false, d.sure_speed};
+/// the mass flow, then the objective; without the mass flow, whether its speed is known, and what it carries.
+std::pair<int, double> worth(DesignTask const& task, RiskDesign const& d) {
+    if (!d.feasible) return {d.untested ? 0 : 1, d.sure_flow};
     switch (task.objective) {
         case Objective::fastest:
             break;
         case Objective::gentlest_landing:
-            return {true, -d.landing_speed};
+            return {2, -d.landing_speed};
         case Objective::least_machine_number:
-            return {true, -d.machine_number};
+            return {2, -d.machine_number};
         case Objective::least_power:
-            return {true, -d.power_per_mass / d.sure_speed};
+            return {2, -d.power_per_mass / d.sure_speed};
     }
-    return {true, d.sure_speed};
-}
-
-/// The best machine whose speed of the drive may be anything within its range, by models that know the depth
-/// of the layer which carries the mass flow.
-RiskDesign design_at_any_speed(DesignTask const& task) {
-    if (std::ranges::none_of(task.models, [](DesignModel const& m) { return bool(m.with_depth); }))
-        return design_by_these(task);
-    RiskDesign before{}, found{};
-    found.depth = std::sqrt(task.depth.low * task.depth.high);
-    for (int i = 0; i < most_depths; ++i) {
-        before = std::exchange(found, design_by_these(at_depth(task, found.depth)));
-        if (std::abs(found.depth - before.depth) <= same_depth * before.depth) return found;
-    }
-    // Two machines with other depths in turn: the better one, each judged with the layer of either.
-    std::optional<RiskDesign> best;
-    for (theory::Drive const& drive : {before.drive, found.drive})
-        for (double const depth : {before.depth, found.depth})
-            if (auto one = judge_machine(task, drive, depth); !best || worth(task, one) > worth(task, *best))
-                best = std::move(one);
-    return *best;
+    return {2, d.sure_speed};
 }
 
 /// The task for each speed and stroke that can be had.
@@ -331,7 +306,7 @@ std::vector<DesignTask> choices_of(DesignTask const& task) {
 RiskDesign best_of_choices(DesignTask const& task) {
     std::optional<RiskDesign> best;
     std::vector<SpeedTried> tried;
-    std::vector<std::pair<std::pair<bool, double>, std::size_t>> order;
+    std::vector<std::pair<std::pair<int, double>, std::size_t>> order;
     for (DesignTask const& one : choices_of(task)) {
         try {
             RiskDesign const design = design_at_any_speed(one);
@@ -389,11 +364,25 @@ RiskDesign design_with_risk(DesignTask const& task) {
 
 RiskDesign judge_machine(DesignTask const& task, theory::Drive const& drive, double depth) {
     check(task);
-    DesignTask one = at_depth(task, depth);
+    DesignTask one = task;
     if (!one.frequencies.empty()) one.space.frequency = {drive.frequency, drive.frequency};
     if (!one.amplitudes.empty()) one.space.amplitude = {drive.amplitude, drive.amplitude};
-    RiskSearch search(one, allowed_space(one));
-    return described(one, search, drive, depth);
+    RiskSearch const search(one, RiskSearch::Layers::all);
+    return described(search, {drive, depth});
+}
+
+std::optional<std::string> untested(DesignTask const& task, DesignLayer const& layer) {
+    constexpr double share = 0.95;
+    auto const [low, high] = task.friction.central(share);
+    auto const depth = task.in_grains(layer.depth);
+    for (DesignModel const& model : task.models) {
+        if (auto const why = model.untested(layer.drive, task.friction.median, depth)) return why;
+        for (double const mu : {low, high})
+            if (auto const why = model.untested(layer.drive, mu, depth))
+                return fmt::format("{}, which the friction may be ({:.3g} to {:.3g} with 95 %)", *why, low,
+                                   high);
+    }
+    return {};
 }
 
 }  // namespace vibrotrough::learn

@@ -29,15 +29,20 @@ struct DesignTask {
     theory::DriveSpace space;              ///< stroke, frequency, angles and the largest K and Gamma
     std::vector<DesignModel> models;       ///< at least one; all of them must reach the mass flow
     std::vector<DesignModel> beside = {};  ///< what these say of the machine is told; they decide nothing
-    KnownFriction friction;                ///< of the material on the trough
-    SettingErrors errors = {};             ///< of what the machine is set to and the material weighs
-    double bulk_density;                   ///< kg/m^3, > 0
-    double width;                          ///< m, of the trough, > 0
-    double length = 0;                     ///< m, of the trough, for power and time; 0 when it is not known
-    double mass_flow;                      ///< kg/s, that is to be reached, > 0
-    theory::Range depth{0.002, 0.1};       ///< m, of the layer
+    /// Proposes a machine, without a probability, where the models know no layer within the limits.
+    std::optional<DesignModel> stand_in = {};
+    /// Why no model knows the material, without a full stop; then `stand_in` proposes the machine.
+    std::optional<std::string> unknown_material = {};
+    KnownFriction friction;           ///< of the material on the trough
+    SettingErrors errors = {};        ///< of what the machine is set to and the material weighs
+    double bulk_density;              ///< kg/m^3, > 0
+    double width;                     ///< m, of the trough, > 0
+    double length = 0;                ///< m, of the trough, for power and time; 0 when it is not known
+    double mass_flow;                 ///< kg/s, that is to be reached, > 0
+    theory::Range depth{0.002, 0.1};  ///< m, of the layer
     std::optional<double> grain_diameter = {};    ///< m, if it is known
     std::optional<double> rolling_friction = {};  ///< coefficient of the grains, if it is known
+    std::optional<double> grain_friction = {};    ///< coefficient of grain on grain, if it is known
     std::optional<MovedMachine> machine = {};     ///< trough, springs and exciter, if they are known
     std::optional<double> landing_speed;          ///< m/s, largest speed of an impact on the trough
     double confidence = 0.95;  ///< probability with which the mass flow is to be reached, in [0.5, 0.999]
@@ -47,7 +52,17 @@ struct DesignTask {
     std::vector<double> amplitudes = {};  ///< m, likewise, of the strokes that can be had
     bool tells_amplitude = false;  ///< messages give the amplitude, as the user did, and not the stroke
     bool tells_frequency = false;  ///< messages give the frequency, and not the speed of the drive
+
+    /// A depth in diameters of the grains, if these are known. @param layer_depth  m
+    std::optional<double> in_grains(double layer_depth) const {
+        if (!grain_diameter) return {};
+        return layer_depth / *grain_diameter;
+    }
 };
+
+/// Why the speed of a layer is not known, by any of the models that decide, without a full stop; nothing
+/// where it is. The friction counts with the central 95 % of its distribution.
+std::optional<std::string> untested(DesignTask const& task, DesignLayer const& layer);
 
 /// The machine for one of the speeds and strokes of the drive that can be had.
 struct SpeedTried {
@@ -102,6 +117,7 @@ struct RiskDesign {
     std::vector<ModelForecast> forecasts;  ///< one per model, in their order
     std::vector<ModelForecast> beside;     ///< of the models that decide nothing, where they know the drive
     double sure_speed;                     ///< m/s, reached with the stated confidence by all models
+    double sure_flow;                      ///< kg/s, carried so surely by a layer of `depth`
     double probability;                    ///< that the mass flow is reached; the least of the models'
     /// Why none of these probabilities and intervals may be relied on, without a full stop: a model's error
     /// is not known there. They must not be shown then.
@@ -114,8 +130,8 @@ struct RiskDesign {
     double power_per_mass;  ///< W/kg, that the trough gives to the point mass at the median of the friction
     /// Whether the mass flow can be reached within the limits at the stated confidence, which must be known.
     bool feasible;
-    /// m, of the trough that would carry the mass flow at the confidence with this drive and the largest
-    /// depth; only when the mass flow is not reached and some speed is sure.
+    /// m, of the trough that would carry the mass flow at the confidence with this drive and depth; only when
+    /// the mass flow is not reached and some speed is sure.
     std::optional<double> width_needed;
     std::vector<SpeedTried> speeds_tried;    ///< one for each of the task's frequencies and amplitudes
     std::vector<std::string> active_limits;  ///< what holds it back
@@ -130,11 +146,13 @@ struct RiskDesign {
 /// the median of the friction. The speed that is reached with the stated confidence is a quantile of this
 /// distribution, the least of all models'.
 ///
-/// A model that depends on the depth of the layer is asked for the depth of the design: the search is
-/// repeated until both agree within 2 %.
+/// One search over drives and depths: first for the layer that carries most at the confidence, which does not
+/// depend on how much is wanted; if it carries the mass flow, for the best by the objective of those that do,
+/// on the thinnest layer that carries it. So a wider range never gives a worse machine, and on a trough of
+/// `width_needed` the same layer carries the mass flow. Where some layer within the limits is one at which
+/// the models are tested, only such layers are proposed.
 ///
-/// The drive is searched for by theory::best_drive(): first the fastest; if that reaches the mass flow at the
-/// largest depth, the best one of those that do. It is then rounded to steps of 1/min, 0.1 mm of stroke
+/// The drive is then rounded to steps of 1/min, 0.1 mm of stroke
 /// and half a degree, or finer ones where these cost more than half a percent. Every limit is kept by
 /// the rounded drive, and that of the landing speed at every friction in the central 99.7 % of its
 /// distribution: the search keeps it at a few frictions, and adds the worst one until none is above the limit

@@ -1,24 +1,30 @@
 #include "learn/risk_search.hpp"
 
 #include "learn/uncertain.hpp"
+#include "learn/way_out.hpp"
 #include "theory/plastic_quantities.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::learn {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int landings_looked_at = 65;
-/// Drives looked at per quantity that may be chosen; fewer with a model that is slow.
-constexpr int global_evaluations = 2000, local_evaluations = 500;
-constexpr int slow_global_evaluations = 700, slow_local_evaluations = 300;
+constexpr int exchanges = 8;
+constexpr int corrections = 3;            // of what the search expects of the sure speed
+constexpr int parts_of_slow_models = 40;  // whose own error smooths the distribution
+constexpr std::size_t polished_layers = 2;
+constexpr double depth_step = 1e-4;  // m, to which the depth is rounded up
 
 double normal_share_above(double z) {
     return 0.5 * std::erfc(z / std::sqrt(2.0));
@@ -35,42 +41,45 @@ std::optional<theory::PlasticQuantities> quantities_of(theory::Drive const& d, d
 
 /// m/s, standard deviation of a model's speed when one number of a drive is not exact; beside the end of what
 /// the model knows, from the slope on the other side.
-double spread_by(DesignModel const& model, theory::Drive const& drive, double theory::Drive::*number,
-                 double sd, double friction) {
+double spread_by(DesignModel const& model, DesignLayer const& layer, double theory::Drive::*number, double sd,
+                 double friction) {
     if (sd <= 0) return 0;
     double known = 0, sum = 0, squares = 0;
     std::vector<double> places, speeds;
-    for (UncertainNode const& node : nodes_of({drive.*number, sd})) {
-        theory::Drive other = drive;
-        other.*number = std::max(1e-6, node.value);
-        auto const value = model.at(other, friction);
+    for (UncertainNode const& node : nodes_of({layer.drive.*number, sd})) {
+        DesignLayer other = layer;
+        other.drive.*number = std::max(1e-6, node.value);
+        auto const value = model.quickly_at(other, friction);
         if (!value) continue;
-        double const speed = value->efficiency * other.trough_speed();
+        double const speed = value->efficiency * other.drive.trough_speed();
         known += node.share;
         sum += node.share * speed;
         squares += node.share * speed * speed;
-        places.push_back(other.*number);
+        places.push_back(other.drive.*number);
         speeds.push_back(speed);
     }
     if (places.size() == 2) return sd * std::abs((speeds[1] - speeds[0]) / (places[1] - places[0]));
     return known > 0 ? std::sqrt(std::max(0.0, squares / known - sum * sum / (known * known))) : 0;
 }
 
-SettingSpread spread_of(DesignTask const& task, DesignModel const& model, theory::Drive const& drive) {
+SettingSpread spread_of(DesignTask const& task, DesignModel const& model, DesignLayer const& layer) {
     double const mu = task.friction.median;
-    return {spread_by(model, drive, &theory::Drive::amplitude, task.errors.amplitude, mu),
-            spread_by(model, drive, &theory::Drive::vibration_angle, task.errors.vibration_angle, mu),
+    return {spread_by(model, layer, &theory::Drive::amplitude, task.errors.amplitude, mu),
+            spread_by(model, layer, &theory::Drive::vibration_angle, task.errors.vibration_angle, mu),
             task.errors.bulk_density / task.bulk_density};
 }
 
-/// What a model says of a drive, by parts of the friction.
-SpeedDistribution speeds_by(DesignTask const& task, DesignModel const& model, theory::Drive const& drive,
-                            std::optional<double> depth, std::vector<FrictionPart> const& parts) {
-    double const usually_missed = model.missed(drive, depth), trough = drive.trough_speed();
-    SettingSpread const set = spread_of(task, model, drive);
+/// What a model says of a layer, by parts of the friction.
+/// @param at  the model's `at`, or what stands for it in a search
+template <class At>
+SpeedDistribution speeds_by(DesignTask const& task, DesignModel const& model, DesignLayer const& layer,
+                            std::vector<FrictionPart> const& parts, At const& at) {
+    double const usually_missed = model.missed(layer.drive, task.in_grains(layer.depth));
+    double const trough = layer.drive.trough_speed();
+    SettingSpread const set = spread_of(task, model, layer);
     SpeedDistribution d;
     for (FrictionPart const& part : parts) {
-        auto const value = model.at(drive, part.friction);
+        auto const value = at(part.friction);
         // A material that runs away has no speed that could be used.
         double const mean = value ? value->efficiency * trough : -1e3, known = value ? value->sd() : 0;
         auto const add = [&](double share, double missed) {
@@ -88,6 +97,31 @@ SpeedDistribution speeds_by(DesignTask const& task, DesignModel const& model, th
             add(part.share / static_cast<double>(part.discrepancies.size()), missed);
     }
     return d;
+}
+
+bool is_any_slow(std::vector<DesignModel> const& models) {
+    return std::ranges::any_of(models, [](DesignModel const& m) { return bool(m.nearly_at); });
+}
+
+std::vector<FrictionPart> parts_to_judge_by(DesignTask const& task) {
+    bool const is_slow = is_any_slow(task.models) || is_any_slow(task.beside);
+    return task.friction.parts(is_slow ? many_parts(task.confidence, parts_of_slow_models)
+                                       : many_parts(task.confidence));
+}
+
+theory::Range allowed_depths(DesignTask const& task) {
+    theory::Range depth = task.depth;
+    for (DesignModel const& model : task.models)
+        depth = {std::max(depth.low, model.depths.low), std::min(depth.high, model.depths.high)};
+    // Ends that are the same but for rounding.
+    if (depth.low > depth.high && depth.low < depth.high * (1 + 1e-9)) depth.low = depth.high;
+    if (depth.low <= depth.high) return depth;
+    std::vector<std::string> known;
+    for (DesignModel const& model : task.models)
+        known.push_back(fmt::format("{} knows {}", model.name, model.known_range));
+    throw std::invalid_argument(fmt::format("a layer {:.3g} to {:.3g} mm deep has not been simulated; {}",
+                                            1e3 * task.depth.low, 1e3 * task.depth.high,
+                                            fmt::join(known, ", ")));
 }
 
 }  // namespace
@@ -137,11 +171,14 @@ double SpeedDistribution::sd() const {
     return std::hypot(sd_of_means(), std::sqrt(within));
 }
 
-RiskSearch::RiskSearch(DesignTask const& task, theory::DriveSpace space)
+RiskSearch::RiskSearch(DesignTask const& task, Layers layers)
     : task_(task),
-      space_(space),
+      layers_(layers),
+      drive_space_(allowed_space(task)),
+      depth_(allowed_depths(task)),
+      space_(drive_space_, depth_),
       few_(task.friction.parts(few_parts(task.confidence))),
-      many_(task.friction.parts(many_parts(task.confidence))),
+      many_(parts_to_judge_by(task)),
       landing_frictions_{task.friction.low} {
     if (task.friction.high > task.friction.low) landing_frictions_.push_back(task.friction.high);
     // The search takes all draws of a part together.
@@ -153,59 +190,174 @@ RiskSearch::RiskSearch(DesignTask const& task, theory::DriveSpace space)
     }
 }
 
-double RiskSearch::needed() const {
-    return task_.mass_flow / (task_.bulk_density * task_.width * task_.depth.high);
+double RiskSearch::per_depth_and_speed() const {
+    return task_.bulk_density * task_.width;
 }
 
-SpeedDistribution RiskSearch::speeds(theory::Drive const& drive, DesignModel const& model,
-                                     std::optional<double> depth) const {
-    return speeds_by(task_, model, drive, depth, many_);
+SpeedDistribution RiskSearch::speeds(DesignLayer const& layer, DesignModel const& model) const {
+    return speeds_by(task_, model, layer, many_, [&](double mu) { return model.at(layer, mu); });
 }
 
-SettingSpread RiskSearch::spread_of_settings(theory::Drive const& drive, DesignModel const& model) const {
-    return spread_of(task_, model, drive);
+SettingSpread RiskSearch::spread_of_settings(DesignLayer const& layer, DesignModel const& model) const {
+    return spread_of(task_, model, layer);
 }
 
-double RiskSearch::sure_speed(theory::Drive const& drive, std::vector<FrictionPart> const& parts) const {
+double RiskSearch::sure_speed(DesignLayer const& layer) const {
     double least = infinity;
     for (DesignModel const& model : task_.models)
-        least = std::min(least, speeds_by(task_, model, drive, {}, parts).exceeded_with(task_.confidence));
+        least = std::min(least, speeds(layer, model).exceeded_with(task_.confidence));
     return least;
 }
 
-double RiskSearch::sure_speed(theory::Drive const& drive) const {
-    return sure_speed(drive, many_);
+double RiskSearch::sure_flow(DesignLayer const& layer) const {
+    return per_depth_and_speed() * layer.depth * sure_speed(layer);
 }
 
-double RiskSearch::expected_sure_speed(theory::Drive const& drive) const {
-    return correction_ * sure_speed(drive, few_);
+/// m/s, the sure speed as the search expects it, by the few parts of the friction.
+double RiskSearch::expected_speed(DesignLayer const& layer, Precision precision) const {
+    double least = infinity;
+    for (DesignModel const& model : task_.models) {
+        auto const at = [&](double mu) {
+            return precision == Precision::near ? model.quickly_at(layer, mu) : model.at(layer, mu);
+        };
+        least = std::min(least, speeds_by(task_, model, layer, few_, at).exceeded_with(task_.confidence));
+    }
+    return correction_ * least;
 }
 
-void RiskSearch::trust_at(theory::Drive const& drive) {
-    double const few = sure_speed(drive, few_), many = sure_speed(drive, many_);
-    if (few > 0 && many > 0) correction_ = many / few;
+bool RiskSearch::is_looked_at(DesignLayer const& layer) const {
+    return layers_ == Layers::all || !untested(task_, layer);
 }
 
-double RiskSearch::merit(theory::Drive const& drive, Objective objective) const {
-    switch (objective) {
-        case Objective::fastest:
-            return expected_sure_speed(drive);
+void RiskSearch::add_limits(LayerGoal& goal) const {
+    for (DesignModel const& model : task_.models)
+        if (!model.is_point_mass)
+            goal.excesses.emplace_back([&](DesignLayer const& layer) { return model.excess(layer.drive); });
+    if (task_.landing_speed)
+        goal.excesses.emplace_back([this](DesignLayer const& layer) {
+            double hardest = 0;
+            for (double const friction : landing_frictions_)
+                hardest = std::max(hardest, landing_speed(layer.drive, friction));
+            return hardest / (aim_ * *task_.landing_speed) - 1;
+        });
+}
+
+std::optional<FoundLayer> RiskSearch::strongest() {
+    auto const carried = [this](Precision precision) {
+        LayerGoal goal;
+        goal.merit = [this, precision](DesignLayer const& layer) {
+            return is_looked_at(layer) ? layer.depth * expected_speed(layer, precision) : -infinity;
+        };
+        add_limits(goal);
+        return goal;
+    };
+    return best(carried, {});
+}
+
+/// What is made as large as possible among layers that carry the mass flow.
+double RiskSearch::objective_at(DesignLayer const& layer, Precision precision) const {
+    switch (task_.objective) {
+        case Objective::fastest: {
+            // Where the mass flow is just carried, the thinnest layer is the fastest.
+            double const just = task_.mass_flow / (per_depth_and_speed() * layer.depth);
+            return layer.depth > depth_.low ? just : std::max(just, expected_speed(layer, precision));
+        }
         case Objective::gentlest_landing: {
             double hardest = 0;
             for (double const friction : landing_frictions_)
-                hardest = std::max(hardest, landing_speed(drive, friction));
+                hardest = std::max(hardest, landing_speed(layer.drive, friction));
             return -hardest;
         }
         case Objective::least_machine_number:
-            return -drive.machine_number(space_.gravity);
+            return -layer.drive.machine_number(drive_space_.gravity);
         case Objective::least_power: {
-            auto const quantities = quantities_of(drive, task_.friction.median);
+            auto const quantities = quantities_of(layer.drive, task_.friction.median);
             if (!quantities) return -infinity;
             // Of the layer that carries the mass flow.
-            return -quantities->mean_power / std::max(1e-9, expected_sure_speed(drive));
+            return -quantities->mean_power / std::max(1e-9, expected_speed(layer, precision));
         }
     }
     return 0;
+}
+
+double RiskSearch::merit(DesignLayer const& layer) const {
+    if (task_.objective == Objective::fastest) return expected_speed(layer, Precision::exact);
+    return objective_at(layer, Precision::exact);
+}
+
+std::optional<FoundLayer> RiskSearch::best_that_carries(FoundLayer const& strongest) {
+    auto const goal_of = [this](Precision precision) {
+        LayerGoal goal;
+        goal.merit = [this, precision](DesignLayer const& layer) {
+            return is_looked_at(layer) ? objective_at(layer, precision) : -infinity;
+        };
+        goal.excesses.emplace_back([this, precision](DesignLayer const& layer) {
+            double const flow = per_depth_and_speed() * layer.depth * expected_speed(layer, precision);
+            return 1 - flow / task_.mass_flow;
+        });
+        add_limits(goal);
+        return goal;
+    };
+    // The search knows the sure speed by few frictions. Where many say that what it found does not carry the
+    // mass flow, it expects less and begins again.
+    FoundLayer trusted = strongest;
+    for (int i = 0; i < corrections; ++i) {
+        double const expected = expected_speed(trusted.layer, Precision::exact);
+        double const known = sure_speed(trusted.layer);
+        if (known > 0 && expected > 0) correction_ *= known / expected;
+        auto found = best(goal_of, {strongest.point});
+        if (!found) break;
+        if (sure_flow(found->layer) >= task_.mass_flow) return found;
+        trusted = *found;
+    }
+    return {};
+}
+
+std::optional<double> RiskSearch::carrying_depth(theory::Drive const& drive, double known) const {
+    auto const surplus = [&](double depth) { return sure_flow({drive, depth}) / task_.mass_flow - 1; };
+    auto const carries = [&](double depth) { return surplus(depth) >= -1e-9; };
+    double const at_low = surplus(depth_.low);
+    if (at_low >= 0) return depth_.low;
+    double const enough = known > depth_.low && carries(known) ? known : depth_.high;
+    double const at_enough = surplus(enough);
+    if (at_enough < -1e-9) return {};
+    if (at_enough <= 0) return enough;
+    std::uintmax_t most = 30;
+    double const exact =
+        boost::math::tools::toms748_solve(surplus, depth_.low, enough, at_low, at_enough,
+                                          boost::math::tools::eps_tolerance<double>(24), most)
+            .second;
+    double const rounded = std::ceil(exact / depth_step - 1e-6) * depth_step;
+    if (rounded <= depth_.high && carries(rounded)) return rounded;
+    return enough;
+}
+
+std::optional<FoundLayer> RiskSearch::best_at_these_frictions(
+    GoalOf const& goal, std::vector<std::vector<double>> const& starts) const {
+    auto const near = best_layers(space_, goal(Precision::near), starts);
+    if (near.empty()) return {};
+    if (!is_any_slow(task_.models)) return near.front();
+    std::optional<FoundLayer> best;
+    for (FoundLayer const& one : near) {
+        auto const exact = polished(space_, goal(Precision::exact), one.point);
+        if (exact && (!best || exact->merit > best->merit)) best = exact;
+        if (&one == &near[std::min(polished_layers, near.size()) - 1] && best) break;
+    }
+    return best;
+}
+
+/// The exchange method: the limit of the landing speed is kept at a few frictions, and the worst one joins
+/// until none is above it.
+std::optional<FoundLayer> RiskSearch::best(GoalOf const& goal,
+                                           std::vector<std::vector<double>> const& starts) {
+    for (int i = 0; i < exchanges; ++i) {
+        auto const found = best_at_these_frictions(goal, starts);
+        if (!found || !task_.landing_speed) return found;
+        Landing const worst = worst_landing(found->layer.drive);
+        if (worst.speed <= *task_.landing_speed) return found;
+        keep_landing_at(worst);
+    }
+    return {};
 }
 
 RiskSearch::Landing RiskSearch::worst_landing(theory::Drive const& drive) const {
@@ -225,48 +377,19 @@ RiskSearch::Landing RiskSearch::worst_landing(theory::Drive const& drive) const 
     return worst;
 }
 
-void RiskSearch::keep_landing_at(double friction, double speed) {
+void RiskSearch::keep_landing_at(Landing const& landing) {
     double const close = 1e-3 * (task_.friction.high - task_.friction.low);
-    bool const known = std::ranges::any_of(landing_frictions_,
-                                           [&](double one) { return std::abs(one - friction) <= close; });
-    if (known) aim_ *= std::min(0.999, *task_.landing_speed / speed);
-    landing_frictions_.push_back(friction);
+    bool const known = std::ranges::any_of(
+        landing_frictions_, [&](double one) { return std::abs(one - landing.friction) <= close; });
+    if (known) aim_ *= std::min(0.999, *task_.landing_speed / landing.speed);
+    landing_frictions_.push_back(landing.friction);
 }
 
-bool RiskSearch::keeps_limits(theory::Drive const& drive, bool must_reach) const {
-    if (excess(space_, drive) > 0) return false;
+bool RiskSearch::keeps_limits(theory::Drive const& drive) const {
+    if (excess(drive_space_, drive) > 0) return false;
     for (DesignModel const& model : task_.models)
         if (model.excess(drive) > 0) return false;
-    if (task_.landing_speed && worst_landing(drive).speed > *task_.landing_speed) return false;
-    return !must_reach || sure_speed(drive) >= needed();
-}
-
-std::optional<theory::Drive> RiskSearch::best(Objective objective, bool must_reach) const {
-    std::vector<theory::DriveFunction> excesses;
-    for (DesignModel const& model : task_.models)
-        if (!model.is_point_mass) excesses.push_back(model.excess);
-    if (task_.landing_speed) {
-        excesses.emplace_back([this](theory::Drive const& drive) {
-            double hardest = 0;
-            for (double const friction : landing_frictions_)
-                hardest = std::max(hardest, landing_speed(drive, friction));
-            return hardest / (aim_ * *task_.landing_speed) - 1;
-        });
-    }
-    if (must_reach)
-        excesses.emplace_back(
-            [this](theory::Drive const& drive) { return 1 - expected_sure_speed(drive) / needed(); });
-    int free = 0;
-    for (theory::Range const& range :
-         {space_.frequency, space_.amplitude, space_.vibration_angle, space_.inclination})
-        free += range.low < range.high ? 1 : 0;
-    free = std::max(1, free);
-    bool const is_slow = std::ranges::any_of(task_.models, &DesignModel::is_slow);
-    theory::DriveSearchSettings const settings{
-        free * (is_slow ? slow_global_evaluations : global_evaluations),
-        free * (is_slow ? slow_local_evaluations : local_evaluations)};
-    return theory::best_drive(
-        space_, [&](theory::Drive const& drive) { return merit(drive, objective); }, excesses, settings);
+    return !task_.landing_speed || worst_landing(drive).speed <= *task_.landing_speed;
 }
 
 }  // namespace vibrotrough::learn

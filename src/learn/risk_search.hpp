@@ -1,7 +1,9 @@
 #pragma once
 
+#include "learn/layer_search.hpp"
 #include "learn/risk_design.hpp"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -27,30 +29,40 @@ struct SettingSpread {
     double bulk_density = 0;     ///< of the mass flow, relative
 };
 
-/// The drives that a design looks at, and what is known of each.
+/// The layers that a design looks at, and what is known of each.
 class RiskSearch {
   public:
-    /// @param task   must live as long as the search
-    /// @param space  the drives that its limits allow
-    RiskSearch(DesignTask const& task, theory::DriveSpace space);
+    /// Which layers are looked at.
+    enum class Layers {
+        tested,  ///< those at which the error of every model is known
+        all,
+    };
 
-    /// m/s, needed for the mass flow at the largest depth.
-    double needed() const;
+    /// @param task   must live as long as the search
+    /// @throws std::invalid_argument when the models know no machine within the limits
+    RiskSearch(DesignTask const& task, Layers layers);
+
     /// By the many parts of the friction.
-    /// @param depth  of the layer, in diameters of its grains, if it is known
-    SpeedDistribution speeds(theory::Drive const& drive, DesignModel const& model,
-                             std::optional<double> depth = {}) const;
+    SpeedDistribution speeds(DesignLayer const& layer, DesignModel const& model) const;
     /// At the median of the friction.
-    SettingSpread spread_of_settings(theory::Drive const& drive, DesignModel const& model) const;
+    SettingSpread spread_of_settings(DesignLayer const& layer, DesignModel const& model) const;
     /// m/s, reached with the task's confidence by all models; below zero when the material runs away. By the
     /// many parts of the friction.
-    double sure_speed(theory::Drive const& drive) const;
-    /// The same by the few parts, by which best() searches; corrected by trust_at().
-    double expected_sure_speed(theory::Drive const& drive) const;
-    /// From now on the few parts give what the many do at this drive.
-    void trust_at(theory::Drive const& drive);
-    /// What is made as large as possible.
-    double merit(theory::Drive const& drive, Objective objective) const;
+    double sure_speed(DesignLayer const& layer) const;
+    /// kg/s, that a layer carries with the task's confidence by all models.
+    double sure_flow(DesignLayer const& layer) const;
+
+    /// The layer that carries most at the task's confidence.
+    std::optional<FoundLayer> strongest();
+    /// The best layer by the task's objective of those that carry the mass flow.
+    /// @param strongest  which carries it
+    std::optional<FoundLayer> best_that_carries(FoundLayer const& strongest);
+    /// m, the depth of the thinnest layer on a drive that carries the mass flow, in steps of 0.1 mm where the
+    /// range of depths allows it; nothing where none carries it. @param known  m, a depth that may carry it
+    std::optional<double> carrying_depth(theory::Drive const& drive, double known) const;
+    /// By which machines with a layer of one depth are compared, when they carry the mass flow: larger is
+    /// better.
+    double merit(DesignLayer const& layer) const;
 
     /// A landing at some friction.
     struct Landing {
@@ -59,25 +71,35 @@ class RiskSearch {
     /// The hardest landing at any friction in the central 99.7 % of its distribution, from 65 of them and a
     /// search by Brent's method between those beside the worst.
     Landing worst_landing(theory::Drive const& drive) const;
-    /// From now on best() keeps the landing speed at this friction, too, where it was found to be `speed`.
-    void keep_landing_at(double friction, double speed);
-    /// Whether a drive keeps every limit at every friction. @param must_reach  also the mass flow
-    bool keeps_limits(theory::Drive const& drive, bool must_reach) const;
+    /// Whether a drive keeps every limit at every friction.
+    bool keeps_limits(theory::Drive const& drive) const;
 
-    /// The best drive that keeps the limits at the frictions looked at so far.
-    std::optional<theory::Drive> best(Objective objective, bool must_reach) const;
-
-    DesignTask const& task() const { return task_; }            ///< of the design
-    theory::DriveSpace const& space() const { return space_; }  ///< that the limits allow
+    DesignTask const& task() const { return task_; }                  ///< of the design
+    theory::DriveSpace const& space() const { return drive_space_; }  ///< that limits and models allow
+    theory::Range const& depth() const { return depth_; }             ///< m, likewise
 
   private:
-    double sure_speed(theory::Drive const& drive, std::vector<FrictionPart> const& parts) const;
+    enum class Precision { near, exact };
+    using GoalOf = std::function<LayerGoal(Precision)>;
+
+    double expected_speed(DesignLayer const& layer, Precision precision) const;
+    double objective_at(DesignLayer const& layer, Precision precision) const;
+    bool is_looked_at(DesignLayer const& layer) const;
+    void add_limits(LayerGoal& goal) const;
+    std::optional<FoundLayer> best(GoalOf const& goal, std::vector<std::vector<double>> const& starts);
+    std::optional<FoundLayer> best_at_these_frictions(GoalOf const& goal,
+                                                      std::vector<std::vector<double>> const& starts) const;
+    void keep_landing_at(Landing const& landing);
+    double per_depth_and_speed() const;
 
     DesignTask const& task_;
-    theory::DriveSpace space_;
+    Layers layers_;
+    theory::DriveSpace drive_space_;
+    theory::Range depth_;
+    LayerSpace space_;
     std::vector<FrictionPart> few_, many_;   ///< of the friction
     double correction_ = 1;                  ///< of the sure speed by the few
-    std::vector<double> landing_frictions_;  ///< at which best() keeps the landing speed
+    std::vector<double> landing_frictions_;  ///< at which the search keeps the landing speed
     double aim_ = 1;  ///< of the landing speed, relative to its limit; lowered when a friction repeats
 };
 

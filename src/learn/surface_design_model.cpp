@@ -79,8 +79,8 @@ class SurfaceAtDrives {
         if (trend_.is_atlas()) atlas_place_ = atlas::place_of(prepared);
     }
 
-    /// The campaign's case in the middle of its ranges.
-    scenario::Trough const& trough() const { return scenario_->trough; }
+    /// The campaign's case in the middle of the ranges that a design may choose from.
+    scenario::Scenario const& layer() const { return *scenario_; }
 
     std::optional<ModelEfficiency> at(theory::Drive const& drive, double friction) {
         std::vector<double> const asked{drive.frequency, drive.amplitude, drive.vibration_angle,
@@ -121,15 +121,15 @@ class SurfaceAtDrives {
     /// The trend at a place: fast for a plain sinusoid, else by the case itself.
     std::optional<double> trend_at(atlas::Place const& place, theory::Drive const& drive, double friction) {
         if (!is_plain_) return trend_.efficiency_at(place);
-        double const mu = varies_friction_ ? friction : trough().friction;
+        double const mu = varies_friction_ ? friction : layer().trough.friction;
         if (atlas_place_) {
-            atlas::Place layer = *atlas_place_;
-            layer[atlas::throw_number_input] = drive.throw_number();
-            layer[atlas::tan_vibration_input] = std::tan(drive.vibration_angle);
-            layer[atlas::tan_inclination_input] = std::tan(drive.inclination);
-            layer[atlas::friction_input] = mu;
-            layer[atlas::amplitude_input] *= drive.amplitude / trough().amplitude;
-            return atlas::efficiency_at(atlas::within_ranges(layer));
+            atlas::Place at = *atlas_place_;
+            at[atlas::throw_number_input] = drive.throw_number();
+            at[atlas::tan_vibration_input] = std::tan(drive.vibration_angle);
+            at[atlas::tan_inclination_input] = std::tan(drive.inclination);
+            at[atlas::friction_input] = mu;
+            at[atlas::amplitude_input] *= drive.amplitude / layer().trough.amplitude;
+            return atlas::efficiency_at(atlas::within_ranges(at));
         }
         double const eta = solver_({std::clamp(drive.throw_number(), 1e-6, 1e4),
                                     std::tan(drive.vibration_angle), std::tan(drive.inclination), mu})
@@ -162,41 +162,49 @@ theory::Range fixed_at(char const* name, theory::Range const& range, double valu
         in_unit * value, unit, in_unit * range.low, in_unit * range.high, unit));
 }
 
-/// The friction of the material must be one that the campaign has.
-void check_friction(std::vector<atlas::SurfaceInput> const& inputs, double campaign,
-                    KnownFriction const& known, std::vector<std::string>& remarks) {
+/// The material must be one that was simulated. @param value  of the material
+void check_material(char const* key, double simulated, double value, double slack, double in_unit,
+                    char const* unit) {
+    if (std::abs(value - simulated) <= slack) return;
+    throw core::InputError(fmt::format(
+        "the campaign was simulated with {0} = {1:.4g}{3} and the material has {2:.4g}{3}; simulate "
+        "it so, or vary {0} in the campaign",
+        key, in_unit * simulated, in_unit * value, unit));
+}
+
+constexpr double same_coefficient = 0.005;  // two that are so close count as one
+constexpr double same_size = 0.01;          // of the diameter
+
+void check_grains(scenario::Grains const& simulated, GivenGrains const& given) {
+    if (given.diameter)
+        check_material("grains.diameter", simulated.diameter, *given.diameter, same_size * simulated.diameter,
+                       1e3, " mm");
+    if (given.rolling_friction)
+        check_material("grains.rolling_friction", simulated.rolling_friction, given.rolling_friction->mean,
+                       same_coefficient, 1, "");
+    if (given.friction)
+        check_material("grains.friction", simulated.friction, given.friction->mean, same_coefficient, 1, "");
+}
+
+/// The frictions on the trough at which the campaign simulated its layer.
+theory::Range simulated_frictions(std::vector<atlas::SurfaceInput> const& inputs, double of_campaign) {
     auto const input = std::ranges::find(inputs, friction_key, &atlas::SurfaceInput::key);
-    if (input == inputs.end()) {
-        if (campaign < known.low - 0.005 || campaign > known.high + 0.005) {
-            throw core::InputError(fmt::format(
-                "the campaign was simulated with trough.friction = {:g} and the material has {:g}; "
-                "vary trough.friction in the campaign",
-                campaign, known.median));
-        }
-        if (known.low < known.high)
-            remarks.push_back(fmt::format(
-                "The campaign does not vary trough.friction: the surface holds for {:g} alone, and "
-                "its mass flow does not know the uncertainty of the friction.",
-                campaign));
-        return;
-    }
-    if (known.median < input->low || known.median > input->high) {
-        throw core::InputError(fmt::format(
-            "the friction {:g} of the material lies outside the range {:g} to {:g} of the campaign; simulate "
-            "it, too",
-            known.median, input->low, input->high));
-    }
-    if (known.low < input->low || known.high > input->high)
-        remarks.push_back(
-            fmt::format("The friction may lie outside the range {:g} to {:g} of the campaign, where the "
-                        "surface only continues what it knows.",
-                        input->low, input->high));
+    if (input != inputs.end()) return {input->low, input->high};
+    return {of_campaign - same_coefficient, of_campaign + same_coefficient};
+}
+
+void check_friction(theory::Range const& simulated, KnownFriction const& known) {
+    if (known.median >= simulated.low && known.median <= simulated.high) return;
+    throw core::InputError(
+        fmt::format("the campaign was simulated with trough.friction = {:.4g} to {:.4g} and the material has "
+                    "{:.4g}; simulate it, too",
+                    simulated.low, simulated.high, known.median));
 }
 
 }  // namespace
 
 DesignModel surface_design_model(std::shared_ptr<atlas::Surface const> surface, CampaignTrend const& trend,
-                                 std::map<std::string, double> const& given, KnownFriction const& friction,
+                                 std::map<std::string, double> const& given, KnownMaterial const& material,
                                  double numerics, double discrepancy) {
     auto const inputs = surface->inputs();
     if (!varies(inputs, scenario::find_key("trough.frequency")->group)) {
@@ -209,9 +217,20 @@ DesignModel surface_design_model(std::shared_ptr<atlas::Surface const> surface, 
         .name = "the simulated layer", .discrepancy = discrepancy, .remarks = surface->doubts()};
     auto const drives =
         std::make_shared<SurfaceAtDrives>(surface, trend, sources_of(inputs, given), numerics);
-    scenario::Trough const trough = drives->trough();
-    check_friction(inputs, trough.friction, friction, model.remarks);
-    model.at = [drives](theory::Drive const& drive, double mu) { return drives->at(drive, mu); };
+    scenario::Trough const trough = drives->layer().trough;
+    theory::Range const frictions = simulated_frictions(inputs, trough.friction);
+    check_friction(frictions, material.friction);
+    check_grains(drives->layer().grains, material.grains);
+    double const depth = scenario::layer_height(drives->layer());
+    model.depths = {depth, depth};
+    model.known_range = fmt::format("a layer {:.3g} mm deep", 1e3 * depth);
+    model.at = [drives](DesignLayer const& layer, double mu) { return drives->at(layer.drive, mu); };
+    model.outside = [frictions](theory::Drive const&, double mu,
+                                std::optional<double>) -> std::optional<std::string> {
+        if (mu >= frictions.low && mu <= frictions.high) return {};
+        return fmt::format("the campaign has frictions of {:.3g} to {:.3g}, and not {:.3g}", frictions.low,
+                           frictions.high, mu);
+    };
     model.excess = [drives](theory::Drive const& drive) { return drives->excess(drive); };
     model.narrowed = [=](theory::DriveSpace space) {
         auto const group = [](char const* key) { return scenario::find_key(key)->group; };

@@ -9,17 +9,32 @@
 
 namespace vibrotrough::learn {
 
+/// What is known of the grains of a design.
+struct GivenGrains {
+    std::optional<double> diameter = {};             ///< m
+    std::optional<Uncertain> rolling_friction = {};  ///< coefficient
+    std::optional<Uncertain> friction = {};          ///< of grain on grain
+};
+
+/// What is known of the material of a design.
+struct KnownMaterial {
+    KnownFriction friction;   ///< on the trough
+    GivenGrains grains = {};  ///< of it
+};
+
 /// The surface of a simulated layer as a model by which a machine can be designed, with its own uncertainty.
 /// The drive chooses the place on the surface, within the range that was simulated; what the campaign does
 /// not vary of the machine stays as it is there.
 /// @param trend     of the campaign, with the values of keys that are words
 /// @param given     values of inputs that describe neither the machine nor trough.friction, by key, SI units
-/// @param friction  of the material: a campaign that does not vary trough.friction must have it
+/// @param material  must be the one that was simulated: grains and friction as far as they are given. A
+/// design
+///   has the depth of the simulated layer
 /// @param numerics  CampaignPoints::numerics of the surface's cases
 /// @param discrepancy  standard deviation of what the surface misses of a real layer, in velocity efficiency
 /// @throws core::InputError when an input has no value, or the campaign cannot describe the material
 DesignModel surface_design_model(std::shared_ptr<atlas::Surface const> surface, CampaignTrend const& trend,
-                                 std::map<std::string, double> const& given, KnownFriction const& friction,
+                                 std::map<std::string, double> const& given, KnownMaterial const& material,
                                  double numerics, double discrepancy = 0);
 
 }  // namespace vibrotrough::learn

@@ -22,6 +22,8 @@ KRAKOW = Path(__file__).parent.parent.parent / "validation" / "krakow" / "refere
 PLAN = {"trough.amplitude": "6 mm", "grains.rotation": "rolling", "grains.rolling_friction": 0.1, "measure.packings": 3,
         "measure.half_width": 0.15, "measure.max_cycles": 40, "measure.max_packings": 3}
 SWEEP = {"trough.throw_number": [1.5, 1.75, 2.0], "grains.rolling_friction": [0.02, 0.25]}
+# An error of the models that the user states: without it, and without grains, no probability would be known.
+STATED = ["--model-discrepancy", "0.1"]
 TROUGH = ["--bulk-density", "600 kg/m3", "--width", "300 mm", "--length", "3 m", "--layer-depth", "5 mm to 60 mm"]
 
 
@@ -68,7 +70,7 @@ class Engineer(EndToEndTest):
         self.assert_is_a_page(page, "Calibration of the point mass", "No friction")
 
         campaign, page = self.folder / "check design.toml", self.folder / "design.html"
-        design = self.design("--posterior", posterior, "--machine-number", "4", "--objective", "least-machine-number",
+        design = self.design("--posterior", posterior, "--machine-number", "4", "--objective", "least-machine-number", "--grain-diameter", "6 mm",
                              "--campaign", campaign, "--page", page)
         self.assertTrue(design["feasible"])
         self.assertGreaterEqual(design["probability"], 0.95)
@@ -91,7 +93,7 @@ class Engineer(EndToEndTest):
 
     def test_several_models_and_limits(self):
         limits = ["--friction", "0.3", "--friction-uncertainty", "0.03", "--machine-number", "4.5", "--stroke", "2 mm to 14 mm",
-                  "--rpm", "200 to 1500", "--landing-speed", "0.6 m/s"]
+                  "--rpm", "200 to 1500", "--landing-speed", "0.6 m/s", *STATED]
         one = self.design(*limits)
         both = self.design(*limits, "--model", "point-mass,rolling-layer")
         self.assertEqual([model["model"] for model in both["models"]], ["the point mass", "the rolling-layer law"])
@@ -106,24 +108,24 @@ class Engineer(EndToEndTest):
     def test_every_campaign_that_it_writes_passes_the_check(self):
         campaign = self.folder / "check.toml"
         for words, untested in ((["--objective", "gentlest-landing"], False),
-                                (["--objective", "least-power", "--grain-diameter", "6 mm", "--model", "point-mass"], True),  # deeper than any that was simulated
+                                (["--objective", "least-power", "--model", "point-mass", "--machine-number", "1.5"], True),  # deeper than any that was simulated
                                 (["--friction-uncertainty", "0.05", "--inclination", "-3 deg to 2 deg"], False),
                                 (["--friction-uncertainty", "0.1", "--machine-number", "4"], False)):  # a deep layer
-            design = self.design("--friction", "0.35", *words, "--campaign", campaign, wanted=1 if untested else 0)
+            design = self.design("--friction", "0.35", "--grain-diameter", "6 mm", *words, "--campaign", campaign, wanted=1 if untested else 0)
             self.assertEqual((design["probability"] is None, design["sentence"].startswith("Not tested")), (untested, untested))
             checked = self.call("check", campaign)
             self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
             self.assertNotIn("warning: layer", checked.stdout + checked.stderr)
 
     def test_what_cannot_be_reached_is_said(self):
-        answer = self.call("design", "--mass-flow", "900 t/h", *TROUGH, "--friction", "0.3")
+        answer = self.call("design", "--mass-flow", "900 t/h", *TROUGH, *STATED, "--friction", "0.3")
         self.assertEqual(answer.returncode, 1, answer.stderr)
         self.assertIn("No machine within the limits carries 900 t/h", answer.stdout)
         self.assertIn("layer depth <= 60 mm", answer.stdout)
         self.assertRegex(answer.stdout, r"a trough \d+ mm wide, or \d+ troughs side by side")
 
     def test_the_best_of_the_speeds_that_can_be_had(self):
-        words = ["--friction", "0.3", "--machine-number", "4", "--objective", "least-machine-number"]
+        words = [*STATED, "--friction", "0.3", "--machine-number", "4", "--objective", "least-machine-number"]
         design = self.design(*words, "--rpm", "960,1450,2900", flow="6 t/h")
         first, second, third = design["speeds_compared"]
         self.assertEqual([one["rpm"] for one in (first, second, third)], [960, 1450, 2900])
@@ -131,7 +133,7 @@ class Engineer(EndToEndTest):
         self.assertEqual(design["machine_number"], min(one["machine_number"] for one in (first, second) if one["feasible"]))
 
     def test_the_best_of_the_strokes_that_can_be_had(self):
-        design = self.design("--friction", "0.3", "--machine-number", "4", "--rpm", "960", "--stroke", "4,6,9 mm", flow="3 t/h")
+        design = self.design(*STATED, "--friction", "0.3", "--machine-number", "4", "--rpm", "960", "--stroke", "4,6,9 mm", flow="3 t/h")
         first, second, third = design["speeds_compared"]
         self.assertEqual([round(one["stroke_mm"], 9) for one in (first, second, third)], [4, 6, 9])
         self.assertIn("machine number", third["why_none"])

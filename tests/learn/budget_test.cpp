@@ -59,10 +59,10 @@ std::map<std::string, double> deviations(ModelForecast const& forecast) {
 /// The efficiency 0.5 + friction, which knows nothing of the drive, with sources of its own.
 DesignModel linear_model() {
     DesignModel model{.name = "a line", .discrepancy = 0.03};
-    model.at = [](theory::Drive const&, double friction) {
+    model.at = [](DesignLayer const&, double friction) {
         return ModelEfficiency{0.5 + friction, std::hypot(0.02, 0.04), 0.01};
     };
-    model.sources = [](theory::Drive const&) { return std::vector<OwnSource>{{"rolling friction", 0.04}}; };
+    model.sources = [](DesignLayer const&) { return std::vector<OwnSource>{{"rolling friction", 0.04}}; };
     model.narrowed = [](theory::DriveSpace const& space) { return space; };
     model.excess = [](theory::Drive const&) { return -1.0; };
     return model;
@@ -106,8 +106,8 @@ TEST(Budget, KnowsASettingBesideTheEndOfTheModel) {
     DesignModel model = linear_model();
     theory::Drive const drive = drive_of_960();
     auto const whole = model.at;
-    model.at = [&](theory::Drive const& other, double friction) {
-        return other.amplitude > drive.amplitude * 1.001 ? std::nullopt : whole(other, friction);
+    model.at = [&](DesignLayer const& other, double friction) {
+        return other.drive.amplitude > drive.amplitude * 1.001 ? std::nullopt : whole(other, friction);
     };
     auto const sds = deviations(judge_machine(uncertain_task(model), drive, 0.02).forecasts.front());
     double const q = 600 * 0.4 * 0.02 * 0.8 * drive.trough_speed();
@@ -175,9 +175,9 @@ TEST(Budget, TheLawKnowsTheRollingFrictionOfTheGrains) {
         layer.law.dry_torque += rolling_friction;
         return solve(layer).motion.velocity_efficiency;
     };
-    EXPECT_EQ(rolling_layer_design_model().at(drive, 0.3)->efficiency, law(0));
-    EXPECT_EQ(rolling_layer_design_model(Uncertain{0.1}).at(drive, 0.3)->efficiency, law(0.1));
-    EXPECT_EQ(rolling_layer_design_model(Uncertain{0.1}).at(drive, 0.3)->sd(), 0);
+    EXPECT_EQ(rolling_layer_design_model().at({drive, 0.012}, 0.3)->efficiency, law(0));
+    EXPECT_EQ(rolling_layer_design_model(Uncertain{0.1}).at({drive, 0.012}, 0.3)->efficiency, law(0.1));
+    EXPECT_EQ(rolling_layer_design_model(Uncertain{0.1}).at({drive, 0.012}, 0.3)->sd(), 0);
 
     // No layer was simulated that rolls against more.
     EXPECT_FALSE(rolling_layer_design_model(Uncertain{0.1}).untested(drive, 0.3, 4.0));
@@ -196,11 +196,11 @@ TEST(Budget, TheLawKnowsTheRollingFrictionOfTheGrains) {
     }
     double const sd = std::sqrt(squares - sum * sum);
     ASSERT_GT(sd, 0.02);
-    EXPECT_NEAR(unknown.at(drive, 0.3)->sd(), sd, 0.03 * sd);
-    auto const sources = unknown.sources(drive);
+    EXPECT_NEAR(unknown.at({drive, 0.012}, 0.3)->sd(), sd, 0.03 * sd);
+    auto const sources = unknown.sources({drive, 0.012});
     ASSERT_EQ(sources.size(), 1U);
     EXPECT_EQ(sources.front().name, "rolling friction (not given: 0 to 0.2)");
-    EXPECT_EQ(sources.front().sd, unknown.at(drive, 0.3)->sd());
+    EXPECT_EQ(sources.front().sd, unknown.at({drive, 0.012}, 0.3)->sd());
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ theory::Drive machine(double throw_number = 2) {
 
 /// A layer that is faster than the model says by `more`.
 SimulatedLayer layer(DesignModel const& model, double more, double half_width, double friction = 0.3) {
-    return {machine(),  friction, 4 * grain, model.at(machine(), friction)->efficiency + more,
+    return {machine(),  friction, 4 * grain, model.at({machine(), 4 * grain}, friction)->efficiency + more,
             half_width, 0.02};
 }
 
@@ -35,7 +35,8 @@ TEST(CorrectedModel, IsTheLayerWhereItWasSimulated) {
     DesignModel const model = point_mass_design_model();
     double const s = model.missed(machine(), {}), n = 0.03 / 1.959963984540054;
     DesignModel const corrected = corrected_design_model(model, {layer(model, 0.2, 0.03)}, grain);
-    auto const before = model.at(machine(), 0.3).value(), after = corrected.at(machine(), 0.3).value();
+    auto const before = model.at({machine(), 4 * grain}, 0.3).value(),
+               after = corrected.at({machine(), 4 * grain}, 0.3).value();
     EXPECT_NEAR(after.efficiency - before.efficiency, 0.2 * s * s / (s * s + n * n), 1e-9);
     EXPECT_NEAR(after.statistics_sd, s * n / std::hypot(s, n), 1e-9);
     // The numerical errors of a simulation are those of the model that rests on it.
@@ -49,7 +50,8 @@ TEST(CorrectedModel, IsTheModelFarAway) {
     DesignModel const model = point_mass_design_model(0.1);
     DesignModel const corrected = corrected_design_model(model, {layer(model, 0.2, 0)}, grain);
     theory::Drive const far = machine(3.2);
-    auto const before = model.at(far, 2.5).value(), after = corrected.at(far, 2.5).value();
+    auto const before = model.at({far, 4 * grain}, 2.5).value(),
+               after = corrected.at({far, 4 * grain}, 2.5).value();
     EXPECT_NEAR(after.efficiency - before.efficiency, 0.1, 2e-3);
     EXPECT_NEAR(after.sd(), 0.1 * std::sqrt(0.75), 0.01);
 }
@@ -58,8 +60,10 @@ TEST(CorrectedModel, IsTheModelFarAway) {
 TEST(CorrectedModel, LayersOfOnePlaceAreAveraged) {
     DesignModel const model = point_mass_design_model();
     std::vector<SimulatedLayer> const one{layer(model, 0.1, 0.04)}, four(4, one.front());
-    double const sd_of_one = corrected_design_model(model, one, grain).at(machine(), 0.3)->statistics_sd,
-                 sd_of_four = corrected_design_model(model, four, grain).at(machine(), 0.3)->statistics_sd;
+    double const
+        sd_of_one = corrected_design_model(model, one, grain).at({machine(), 4 * grain}, 0.3)->statistics_sd,
+        sd_of_four =
+            corrected_design_model(model, four, grain).at({machine(), 4 * grain}, 0.3)->statistics_sd;
     EXPECT_LT(sd_of_four, 0.6 * sd_of_one);
     EXPECT_GT(sd_of_four, 0.4 * sd_of_one);
 }
@@ -68,22 +72,16 @@ TEST(CorrectedModel, LayersOfOnePlaceAreAveraged) {
 // others: the model is 0.1 slower for each diameter of depth, and the layer 0.05 faster than it. Tolerance:
 // rounding.
 TEST(CorrectedModel, IsToldTheErrorAtTheDepthOfTheLayer) {
-    std::function<DesignModel(double)> const of_depth = [&](double depth) {
-        DesignModel model = point_mass_design_model(0.1);
-        auto const shallow = model.at;
-        model.at = [shallow, depth](theory::Drive const& d, double friction) {
-            auto value = shallow(d, friction);
-            value->efficiency -= 0.1 * (depth / grain - 4);
-            return value;
-        };
-        model.with_depth = of_depth;
-        return model;
+    DesignModel model = point_mass_design_model(0.1);
+    model.at = [shallow = model.at](DesignLayer const& one, double friction) {
+        auto value = shallow(one, friction);
+        value->efficiency -= 0.1 * (one.depth / grain - 4);
+        return value;
     };
-    DesignModel const model = of_depth(0);
-    DesignModel const corrected = corrected_design_model(model, {layer(of_depth(4 * grain), 0.05, 0)}, grain);
+    DesignModel const corrected = corrected_design_model(model, {layer(model, 0.05, 0)}, grain);
     for (double const depth : {4 * grain, 6 * grain}) {
-        double const before = model.of_layer(depth).at(machine(), 0.3)->efficiency;
-        EXPECT_NEAR(corrected.of_layer(depth).at(machine(), 0.3)->efficiency, before + 0.05, 1e-6);
+        DesignLayer const asked{machine(), depth};
+        EXPECT_NEAR(corrected.at(asked, 0.3)->efficiency, model.at(asked, 0.3)->efficiency + 0.05, 1e-6);
     }
 }
 

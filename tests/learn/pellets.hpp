@@ -4,11 +4,12 @@
 
 namespace vibrotrough::learn {
 
-/// 12 t/h of pellets on a trough 0.3 m wide.
+/// 12 t/h of pellets on a trough 0.3 m wide, by a point mass whose error is stated, so that it is known for
+/// grains of any size.
 inline DesignTask pellets() {
     DesignTask task{};
     task.space.max_machine_number = 4;
-    task.models = {point_mass_design_model()};
+    task.models = {point_mass_design_model(0.1)};
     task.friction = normal_friction(0.3, 0.03);
     task.bulk_density = 600;
     task.width = 0.3;

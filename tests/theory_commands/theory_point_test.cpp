@@ -138,7 +138,8 @@ TEST(Design, ChoosesAmongMotors) {
     auto const design = [](std::string const& motors) {
         return run_program(
             "design --mass-flow '3 t/h' --bulk-density '600 kg/m3' --width '300 mm' --friction 0.3 "
-            "--vibration-angle '30 deg' --machine-number 4 --objective least-machine-number " +
+            "--vibration-angle '30 deg' --machine-number 4 --objective least-machine-number "
+            "--model-discrepancy 0.05 " +
             motors);
     };
     std::pair<char const*, char const*> const same[] = {
@@ -179,7 +180,8 @@ TEST(Design, WritesPlainNumbers) {
     EXPECT_NE(large.text.find("for a friction of 0.3 (point mass"), std::string::npos) << large.text;
     EXPECT_EQ(large.text.find("e+0"), std::string::npos) << large.text;
     Answer const range = run_program(
-        "design --mass-flow '12 t/h' --bulk-density '600 kg/m3' --width '300 mm' --friction '0.25 to 0.35'");
+        "design --mass-flow '12 t/h' --bulk-density '600 kg/m3' --width '300 mm' --friction '0.25 to 0.35' "
+        "--model-discrepancy 0.05");
     EXPECT_NE(range.text.find("for frictions of 0.2"), std::string::npos) << range.text;
 }
 
@@ -194,7 +196,7 @@ TEST(Design, TakesRangesAsPeopleWriteThem) {
     auto const design = [](std::string const& limits) {
         return run_program(
             "design --mass-flow \"12 t/h\" --bulk-density \"600 kg/m3\" --width \"300 mm\" "
-            "--friction 0.3 --inclination \"-2 deg\" " +
+            "--friction 0.3 --model-discrepancy 0.05 --inclination \"-2 deg\" " +
             limits);
     };
     Answer const expected =

@@ -9,6 +9,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
+#include "learn/design_campaign.hpp"
 #include "learn/design_report.hpp"
 #include "learn/driven_design.hpp"
 
@@ -39,8 +40,8 @@ learn::DesignTask read_task(DesignArguments const& options) {
     auto const asks = [&](std::string const& model) {
         return std::ranges::find(options.task.models, model) != options.task.models.end();
     };
-    bool const matters =
-        is_simulated || asks("atlas") || asks("rolling-layer") || options.task.models_to_choose(task);
+    bool const matters = is_simulated || asks("atlas") || asks("rolling-layer") || asks("surface") ||
+                         !options.task.surface.empty() || options.task.material_chooses_model();
     if (task.rolling_friction && !matters)
         throw core::InputError(
             "--rolling-friction: the point mass does not know it; write --model rolling-layer, --verify or "
@@ -75,14 +76,13 @@ learn::DesignTask read_task(DesignArguments const& options) {
 
 /// The machine that the models propose, whose stroke follows from the exciter if there is one.
 learn::ChosenDesign find_machine(DesignArguments const& options, learn::DesignTask const& task) {
-    auto const models = options.task.models_to_choose(task);
     int round = 0;
     auto const find = [&](learn::DesignTask const& one) {
         ++round;
         if (::isatty(STDERR_FILENO) == 1 && !options.verification.quiet)
             fmt::print(stderr, "looking for the machine{}; this takes some seconds\n",
                        round == 1 ? "" : fmt::format(", with the stroke under its layer, {}", round));
-        return models ? choose_machine(one, *models) : learn::ChosenDesign{one, propose_machine(one)};
+        return learn::ChosenDesign{one, propose_machine(one)};
     };
     if (!task.machine || !task.machine->exciter) return find(task);
     try {
@@ -94,15 +94,23 @@ learn::ChosenDesign find_machine(DesignArguments const& options, learn::DesignTa
 
 /// Verifies the design unless it was not asked for; tells how.
 VerifiedDesign find_design(DesignArguments const& options, learn::DesignTask task) {
-    if (!options.verify || options.task.models_to_choose(task)) {
+    if (!options.verify) {
         learn::ChosenDesign found = find_machine(options, task);
-        if (!options.verify) return {std::move(found.task), std::move(found.design), {}};
-        task = std::move(found.task);
+        return {std::move(found.task), std::move(found.design), {}};
     }
     VerificationOptions how = options.verification;
     if (options.budget) how.budget = read_core_time(*options.budget);
     if (options.jobs) how.jobs = read_count("--jobs", *options.jobs, "2", 1, 10000);
     return verify_design(task, how);
+}
+
+void write_campaign(std::string const& file, learn::DesignTask const& task, learn::RiskDesign const& design) {
+    if (auto const why = learn::why_no_campaign(task, design)) {
+        tell("no campaign is written: {}\n", *why);
+        return;
+    }
+    core::write_file_atomically(file, learn::design_campaign(task, design, {}));
+    tell("campaign written: {0}; next: vibrotrough check {0}\n", core::shell_word(file));
 }
 
 int run_design(DesignArguments const& options) {
@@ -111,11 +119,7 @@ int run_design(DesignArguments const& options) {
     settle_load(found.task, found.design);
     learn::DesignTask const& task = found.task;
     learn::RiskDesign const& design = found.design;
-    if (!options.campaign.empty()) {
-        core::write_file_atomically(
-            options.campaign, learn::design_campaign(task, design, {task.grain_diameter.value_or(0.003)}));
-        tell("campaign written: {0}; next: vibrotrough check {0}\n", core::shell_word(options.campaign));
-    }
+    if (!options.campaign.empty()) write_campaign(options.campaign, task, design);
     if (!options.page.empty()) {
         auto data = learn::design_page_data(task, design);
         if (options.verify) data["verification"] = learn::verification_sentence(task, found.verification);
@@ -168,8 +172,8 @@ measured on another machine to 'vibrotrough theory calibrate' and its file to --
 2. No model is exact either: each misses the truth by its discrepancy. Speed and mass flow therefore have a
 distribution, and the layer is made so deep that the mass flow is reached with the stated confidence. What the point
 mass and the rolling-layer law miss is known from simulated layers (validation/model_errors); where none tells it, for
-example because the layer is deeper than any of them (--grain-diameter), the answer begins with "Not tested" and has
-no probability.
+example because the layer is deeper than any of them, or nobody says how large its grains are (--grain-diameter), the
+answer begins with "Not tested" and has no probability.
 
 3. Every limit is kept by the machine as it is printed (rounded to what a workshop sets), the landing speed at
 every friction in the central 99.7 % of its distribution (three standard deviations on each side).
@@ -179,11 +183,14 @@ every friction in the central 99.7 % of its distribution (three standard deviati
 these. The atlas is what simulated layers of spheres say, with an interval (see 'vibrotrough predict'); what
 it does not know of the grains (rolling friction, friction, restitution) is part of its uncertainty, as the
 rolling friction is of the law's. A surface is what your own simulated campaign says. Landing speed, power and mode are always those of the point mass.
-With --grain-diameter and without --model the atlas decides where it knows the layer, otherwise the law or the
-point mass, and the others stand beside it.
+With --grain-diameter and without --model the atlas decides, and the others stand beside it; for grains that do not
+roll (--rolling-friction 0.5 or more) the point mass does. One model decides by the material, never by whether it
+carries the mass flow: a wider range never gives a worse machine. Where the atlas knows no layer within the limits,
+the point mass proposes a machine, without a probability.
 
 The rules of thumb beside the answer know neither friction nor depth. --campaign writes the campaign file that
-checks the design with grains; its grains are assumed, so put in what you know of yours.
+checks the design with grains: the same machine, depth, width and grains. What you did not give of the grains is in
+the middle of what was simulated.
 
 The answer ranks what is uncertain by what it leaves open of the mass flow: what to measure first. With
 --trough-mass it tells the exciter that is needed, and with --exciter the stroke follows from it.
@@ -209,8 +216,7 @@ Exit codes:
 
 Examples:
   vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
-      --length "3 m" --friction 0.3 --friction-uncertainty 0.03 --machine-number 4 \
-      --layer-depth "5 mm to 40 mm"
+      --length "3 m" --friction 0.3 --friction-uncertainty 0.03 --grain-diameter "5 mm" --machine-number 4
   vibrotrough theory calibrate speeds.csv --free friction --posterior friction.json
   vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
       --posterior friction.json --model point-mass,rolling-layer --objective least-machine-number \

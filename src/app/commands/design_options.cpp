@@ -77,19 +77,21 @@ GivenPlace read_places(std::vector<std::string> const& places, scenario::CaseMak
     return given;
 }
 
-learn::DesignModel read_surface(DesignOptions const& o, learn::KnownFriction const& known,
-                                double discrepancy) {
-    campaign::Plan const plan = campaign::open_plan(o.surface);
-    scenario::CaseMaker const maker(std::filesystem::path(o.surface) / "campaign.toml");
-    GivenPlace const given = read_places(o.places, maker);
+}  // namespace
+
+learn::DesignModel DesignOptions::read_surface(learn::KnownFriction const& known) const {
+    campaign::Plan const plan = campaign::open_plan(surface);
+    scenario::CaseMaker const maker(std::filesystem::path(surface) / "campaign.toml");
+    GivenPlace const given = read_places(places, maker);
     learn::CampaignPoints points = learn::campaign_points(plan, maker, given.words);
     tell_of_other_layers(points.other_layers);
-    auto const surface = std::make_shared<atlas::Surface const>(learn::surface_of(points));
-    return learn::surface_design_model(surface, learn::CampaignTrend(maker, points.inputs, given.words),
-                                       given.numbers, known, points.numerics, discrepancy);
+    learn::KnownMaterial material{known, {{}, read_rolling_friction(), read_grain_friction()}};
+    if (grain_diameter)
+        material.grains.diameter = read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm");
+    return learn::surface_design_model(std::make_shared<atlas::Surface const>(learn::surface_of(points)),
+                                       learn::CampaignTrend(maker, points.inputs, given.words), given.numbers,
+                                       material, points.numerics, read_discrepancy().value_or(0));
 }
-
-}  // namespace
 
 void DesignOptions::add_to(CLI::App& command) {
     add_material(command);
@@ -101,11 +103,11 @@ void DesignOptions::add_to(CLI::App& command) {
     command.add_option("--confidence", confidence,
                        "Probability with which the mass flow is to be reached; default: 0.95");
     command
-        .add_option(
-            "--model", models,
-            "By which model: point-mass, rolling-layer, atlas, surface, or several, separated by "
-            "commas, which must then all reach the mass flow; default: with --grain-diameter the atlas where "
-            "it knows the layer, else the rolling-layer law up to throw number 1.9; else the point mass")
+        .add_option("--model", models,
+                    "By which model: point-mass, rolling-layer, atlas, surface, or several, separated by "
+                    "commas, which must then all reach the mass flow; default: with --grain-diameter the "
+                    "atlas, or the "
+                    "point mass for grains that do not roll (rolling friction of 0.5 or more)")
         ->delimiter(',')
         ->expected(1)
         ->type_name("MODEL[,MODEL...]")
@@ -217,14 +219,16 @@ std::optional<learn::Uncertain> DesignOptions::read_rolling_friction() const {
     return read_uncertain_number("--rolling-friction", *rolling_friction, "0.05", 0, 1);
 }
 
+std::optional<learn::Uncertain> DesignOptions::read_grain_friction() const {
+    if (!grain_friction) return {};
+    return read_uncertain_number("--grain-friction", *grain_friction, "0.5", 0, 10);
+}
+
 learn::KnownGrains DesignOptions::read_grains() const {
     if (!grain_diameter)
         throw core::InputError("--model atlas needs the size of the grains; write --grain-diameter \"3 mm\"");
-    learn::KnownGrains grains{read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm"),
-                              read_rolling_friction()};
-    if (grain_friction)
-        grains.friction = read_uncertain_number("--grain-friction", *grain_friction, "0.5", 0, 10);
-    return grains;
+    return {read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm"), read_rolling_friction(),
+            read_grain_friction()};
 }
 
 std::optional<double> DesignOptions::read_discrepancy() const {
@@ -232,21 +236,30 @@ std::optional<double> DesignOptions::read_discrepancy() const {
     return read_number_within("--model-discrepancy", *discrepancy, "0.05", 0, 1);
 }
 
-std::optional<learn::ModelsToChoose> DesignOptions::models_to_choose(learn::DesignTask const& task) const {
-    bool const is_named = !models.empty() || !surface.empty() || posterior;
-    if (is_named || !task.grain_diameter) return {};
+bool DesignOptions::material_chooses_model() const {
+    return models.empty() && surface.empty() && !posterior && grain_diameter;
+}
+
+/// The atlas decides for spheres that roll, the point mass for grains that do not; of those between them
+/// nothing is known. The other models stand beside it.
+void DesignOptions::choose_models(learn::DesignTask& task) const {
     auto const missed = read_discrepancy();
-    learn::ModelsToChoose choice{
-        {},
-        "",
-        learn::rolling_layer_design_model(read_rolling_friction(), missed, task.friction.median),
-        learn::point_mass_design_model(missed)};
-    try {
-        choice.atlas = learn::atlas_design_model(read_grains(), missed.value_or(0), task.friction.median);
-    } catch (core::InputError const& error) {
-        choice.why_no_atlas = error.what();
+    auto const rolling = read_rolling_friction();
+    auto const point_mass = learn::point_mass_design_model(missed);
+    auto const law = learn::rolling_layer_design_model(rolling, missed, task.friction.median);
+    if (rolling && rolling->mean >= learn::least_friction_without_rolling) {
+        task.models = {point_mass};
+        task.beside = {law};
+        return;
     }
-    return choice;
+    task.beside = {law, point_mass};
+    task.stand_in = point_mass;
+    try {
+        task.models = {learn::atlas_design_model(read_grains(), missed.value_or(0), task.friction.median)};
+    } catch (core::InputError const& error) {
+        task.unknown_material = error.what();
+        task.models = {point_mass};
+    }
 }
 
 std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction const& known) const {
@@ -269,7 +282,7 @@ std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction 
         else if (name == "atlas")
             all.push_back(learn::atlas_design_model(read_grains(), missed.value_or(0), known.median));
         else
-            all.push_back(read_surface(*this, known, missed.value_or(0)));
+            all.push_back(read_surface(known));
     }
     return all;
 }
@@ -305,11 +318,19 @@ learn::DesignTask DesignOptions::task() const {
     if (grain_diameter)
         task.grain_diameter = read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm");
     if (rolling_friction) task.rolling_friction = read_rolling_friction()->mean;
+    if (grain_friction) task.grain_friction = read_grain_friction()->mean;
     std::string calibrated_model;
     task.friction = read_friction(calibrated_model);
     tell_unusual(drive, task.space, task.friction.median, task.bulk_density);
-    check_slope(drive, task.space, task.friction.low);
-    task.models = read_models(task.friction);
+    std::string const why_so_low = task.friction.sd > 0
+                                       ? fmt::format(" ({:.3g} less three standard deviations of {:.3g})",
+                                                     task.friction.median, task.friction.sd)
+                                       : "";
+    check_slope(drive, task.space, task.friction.low, why_so_low);
+    if (material_chooses_model())
+        choose_models(task);
+    else
+        task.models = read_models(task.friction);
     task.objective = objectives.at(objective);
     // What a calibration says of a model's error holds for the model that was calibrated.
     if (!task.friction.discrepancies.empty() && !discrepancy) {

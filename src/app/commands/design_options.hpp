@@ -3,8 +3,8 @@
 #include "app/commands/exciter_options.hpp"
 #include "app/commands/theory/drive_space.hpp"
 #include "learn/atlas_design_model.hpp"
-#include "learn/model_choice.hpp"
 #include "learn/risk_design.hpp"
+#include "learn/surface_design_model.hpp"
 
 #include <string>
 #include <vector>
@@ -35,18 +35,20 @@ struct DesignOptions {
     /// The task with its models. @throws core::InputError when an option is missing, wrong or contradicts
     /// another
     learn::DesignTask task() const;
-    /// The models among which the design chooses; nothing where the user or the posterior names one, or the
-    /// diameter of the grains is not known.
-    std::optional<learn::ModelsToChoose> models_to_choose(learn::DesignTask const& task) const;
+    /// Whether the material decides by which model, since the user names none.
+    bool material_chooses_model() const;
 
   private:
     void add_material(CLI::App& command);
     void add_limits(CLI::App& command);
     std::optional<learn::Uncertain> read_rolling_friction() const;  ///< nothing: not known
+    std::optional<learn::Uncertain> read_grain_friction() const;    ///< likewise
     learn::KnownGrains read_grains() const;
     std::optional<double> read_discrepancy() const;
     learn::KnownFriction read_friction(std::string& calibrated_model) const;
     std::vector<learn::DesignModel> read_models(learn::KnownFriction const& known) const;
+    learn::DesignModel read_surface(learn::KnownFriction const& known) const;
+    void choose_models(learn::DesignTask& task) const;
 };
 
 }  // namespace vibrotrough::app

@@ -168,16 +168,17 @@ ReadSpace read_drive_space(DriveTexts const& o) {
     return read;
 }
 
-void check_slope(DriveTexts const& texts, theory::DriveSpace const& space, double friction) {
+void check_slope(DriveTexts const& texts, theory::DriveSpace const& space, double friction,
+                 std::string const& why_so_low) {
     if (!texts.inclination) return;
     double const steepest = theory::steepest_slope(friction);
     if (space.inclination.low <= steepest && space.inclination.high >= -steepest) return;
     std::string const one = last_of_range(*texts.inclination);
     throw core::InputError(
         fmt::format("no machine fits: --inclination {}: must lie between {}, where tan(alpha) is 95 % of the "
-                    "friction coefficient {:.4g}{}; write a flatter one",
+                    "friction coefficient {:.4g}{}{}; write a flatter one",
                     *texts.inclination, core::range_in_unit_of(one, -steepest, steepest, "radian", " and "),
-                    friction, core::slip_of_unit(one, -steepest, steepest, "radian")));
+                    friction, why_so_low, core::slip_of_unit(one, -steepest, steepest, "radian")));
 }
 
 void tell_unusual(DriveTexts const& texts, theory::DriveSpace const& space, double friction,

@@ -27,7 +27,8 @@ ReadSpace read_drive_space(DriveTexts const& texts);
 
 /// @throws core::InputError when even the flattest trough of the space is so steep that the material runs
 /// away
-void check_slope(DriveTexts const& texts, theory::DriveSpace const& space, double friction);
+void check_slope(DriveTexts const& texts, theory::DriveSpace const& space, double friction,
+                 std::string const& why_so_low = "");
 
 /// Says on standard error which numbers of a task are unusual, and which slip would explain it.
 void tell_unusual(DriveTexts const& texts, theory::DriveSpace const& space, double friction,
