@@ -25,10 +25,7 @@ class Fault : public InputError {
     using InputError::InputError;
 };
 
-/// The largest depth of lists and objects within each other. The program's own notes have six levels.
-constexpr int deepest = 100;
-
-/// The value that a text holds. @throws Fault unless it is JSON of at most `deepest` levels
+/// The value that a text holds. @throws Fault unless it is JSON
 Json parse(std::string_view text);
 
 /// A member that is an object. @throws Fault when it is missing or something else
@@ -65,11 +62,7 @@ bool knows(Digests const& digests, std::string const& name, std::string_view con
 
 /// A text as it stands. @throws Fault when it is missing or something else
 std::string text(Json const& note, std::string const& key);
-/// A text for messages and tables: harmless(). @throws Fault as text()
-std::string line(Json const& note, std::string const& key);
 /// The same where the text may be missing and then is empty. @throws Fault when it is something else
 std::string text_if_any(Json const& note, std::string const& key);
-/// A text for messages that may be missing. @throws Fault when it is something else
-std::string line_if_any(Json const& note, std::string const& key);
 
 }  // namespace vibrotrough::core::note

@@ -17,7 +17,7 @@ constexpr char const* written_file = "deck.json";
 /// @throws core::note::Fault when the text is not such a note
 core::note::Digests parse_written(std::string_view text);
 
-/// Writes the files of a case that a person will run by hand, below an OwnFolder. What an earlier call wrote
+/// Writes the files of a case that a person will run by hand. What an earlier call wrote
 /// is replaced, but not a file that somebody else wrote or edited.
 /// @param folder  of the case; it is made
 /// @param files   contents by path below the folder

@@ -97,8 +97,8 @@ std::string difference(std::string const& name, std::string const& content, std:
     auto const there = comparable_commands(content), expected = comparable_commands(own);
     auto const [a, b] = std::ranges::mismatch(there, expected);
     if (a == there.end() && b == expected.end()) return {};
-    if (a == there.end()) return fmt::format("{} lacks '{}'", name, core::printable(*b, 100));
-    return fmt::format("{} has '{}'", name, core::printable(*a, 100));
+    if (a == there.end()) return fmt::format("{} lacks '{}'", name, *b);
+    return fmt::format("{} has '{}'", name, *a);
 }
 
 /// Compares the deck in a folder with its seal (deck.json), and where that does not hold with the deck that
@@ -152,7 +152,7 @@ std::string end_of_run(HandPacking& packing) {
         auto const error = text.rfind("\nERROR");
         if (error != text.npos) {
             std::string const line = text.substr(error + 1, text.find('\n', error + 1) - error - 1);
-            return fmt::format("{} says: {}", name, core::printable(line, 200));
+            return fmt::format("{} says: {}", name, line);
         }
         return text.find(deck::end_marker) == text.npos
                    ? fmt::format("{} has no end marker: the run was stopped or goes on", name)

@@ -88,22 +88,6 @@ class Deck(EndToEndTest):
         self.assert_one_line_error(self.write_decks(), 2, "is not what 'vibrotrough deck' wrote there")
         self.assertEqual(self.content(self.decks), {"case-001/scenario.toml": b"dear"})
 
-    def test_decks_are_not_written_through_a_link(self):
-        precious = self.folder / "precious"
-        precious.mkdir()
-        for name in ("in.liggghts", "scenario.toml", "deck.json"):
-            (precious / name).write_text("dear")
-        before = self.content(precious)
-        for link, target in (("case-001", ""), ("case-001/packing-1", ""), ("case-001/packing-1/in.liggghts", "in.liggghts"),
-                             ("case-001/scenario.toml", "scenario.toml"), ("case-001/deck.json", "deck.json")):  # fmt: skip
-            with self.subTest(link=link):
-                self.decks = self.folder / "decks of {}".format(link.replace("/", " "))
-                (self.decks / link).parent.mkdir(parents=True)
-                (self.decks / link).symlink_to(precious / target)
-                done = self.write_decks()
-                self.assertIn(done.returncode, (2, 3), done.stdout + done.stderr)
-                self.assertEqual(self.content(precious), before)
-
 
 if __name__ == "__main__":
     unittest.main()

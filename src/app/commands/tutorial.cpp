@@ -3,7 +3,6 @@
 #include "app/notebook.hpp"
 #include "app/tutorial_files.hpp"
 #include "core/atomic_file.hpp"
-#include "core/text.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -39,7 +38,7 @@ void write_new_file(fs::path const& path, std::string_view text) {
     std::error_code unreadable;
     bool const exists = fs::exists(fs::symlink_status(path, unreadable));
     if (!exists) core::write_file_atomically(path, text);
-    fmt::print("{}: {}\n", exists ? "there already" : "written", core::harmless(path.string()));
+    fmt::print("{}: {}\n", exists ? "there already" : "written", path.string());
 }
 
 int run_tutorial(TutorialArguments const& options) {

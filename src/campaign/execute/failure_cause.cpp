@@ -10,9 +10,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <optional>
-#include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -24,24 +22,17 @@ namespace fs = std::filesystem;
 /// Why the folder takes no more, if it does not: tried, because free space alone says nothing about quotas.
 std::optional<std::string> full_disk(fs::path const& folder) {
     fs::path const probe = folder / fmt::format(".probe-{}", ::getpid());
-    core::ParentFolder const parent(probe);
-    int const file = parent.open(O_WRONLY | O_CREAT | O_EXCL);
-    int reason = file < 0 ? errno : 0;
-    if (file >= 0) {
-        std::vector<char> const content(256 << 10, 'x');
-        // What does not fit is cut off, and the next write says why.
-        std::size_t rest = content.size();
-        while (rest > 0 && reason == 0) {
-            ssize_t const written = ::write(file, content.data(), rest);
-            if (written <= 0) reason = written < 0 ? errno : ENOSPC;
-            if (written > 0) rest -= static_cast<std::size_t>(written);
-        }
-        if (reason == 0 && ::fsync(file) != 0) reason = errno;
-        ::close(file);
-        ::unlinkat(parent.descriptor(), parent.name(), 0);
+    std::optional<std::string> reason;
+    try {
+        core::write_file_atomically(probe, std::string(256 << 10, 'x'));
+    } catch (core::DiskFullError const& error) {
+        reason = error.what();
+    } catch (core::MissingError const&) {
+        // Not full, but the folder is gone or may not be written to.
     }
-    if (reason != ENOSPC && reason != EDQUOT && reason != EFBIG) return {};
-    return core::reason_of(reason);
+    std::error_code missing;
+    fs::remove(probe, missing);
+    return reason;
 }
 
 /// The same of a private folder of this machine, as the engine has one.

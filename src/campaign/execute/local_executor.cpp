@@ -6,7 +6,6 @@
 #include "campaign/execute/ranks.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/error.hpp"
-#include "core/own_folder.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -132,7 +131,7 @@ class LocalExecutor : public Executor {
     void start(PackingOrder const& order, int ranks) {
         PlannedCase const& planned = *order.planned;
         write_case_files(planned);
-        core::remove_file(planned.failure_file());  // the file means that the last attempt failed
+        fs::remove(planned.failure_file());  // the file means that the last attempt failed
         running_.push_back({order, ranks, count_memory_kills()});
         auto const place = std::prev(running_.end());
         try {

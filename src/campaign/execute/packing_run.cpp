@@ -1,6 +1,5 @@
 #include "campaign/execute/packing_run.hpp"
 
-#include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -21,18 +20,11 @@
 namespace vibrotrough::campaign {
 namespace {
 
-/// The engine writes into its files by their names, wherever these lead.
-void check_files_of_engine(std::filesystem::path const& folder) {
-    std::error_code missing;
-    for (auto const& entry : std::filesystem::directory_iterator(folder, missing)) {
-        // Of the settled packing, which the engine only reads, several packings may have one file.
-        if (entry.path().filename() == deck::settled_file && !entry.is_symlink()) continue;
-        if (!entry.is_symlink() && entry.is_directory(missing)) {
-            check_files_of_engine(entry.path());
-        } else {
-            core::check_own_file(entry.path());
-        }
-    }
+/// Gives a file a second name, or copies it where the file system knows no hard links.
+void link_or_copy(std::filesystem::path const& from, std::filesystem::path const& to) {
+    std::error_code failure;
+    std::filesystem::create_hard_link(from, to, failure);
+    if (failure) std::filesystem::copy_file(from, to);
 }
 
 PackingEnd interrupted_end() {
@@ -114,11 +106,10 @@ void PackingRun::start_on(Settled const& settled) {
         });
         return;
     }
-    // What an earlier run left behind. (The folder itself stays: to make a new one costs more than to look.)
-    remove_run_files(folder_);
+    std::filesystem::remove_all(folder_);  // what an earlier run left behind
     deck::write_deck(deck_, folder_, engine_.ranks);
     // The packing's folder holds its settled packing, so that the deck can be run there by hand.
-    core::link_or_copy(settled.restart, folder_ / deck::settled_file);
+    link_or_copy(settled.restart, folder_ / deck::settled_file);
     has_settled_ = true;
     start_engine({});
 }
@@ -133,13 +124,11 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
         // Perhaps on another number of ranks than before.
         deck::write_files(deck::for_ranks(deck_.files, engine_.ranks), engine_folder());
     }
-    check_files_of_engine(engine_folder());
     stop_ = packing_.next_stop(sealed_cycle_);
     core::replace_file(engine_folder() / deck::control_file, deck::control_until(stop_));
     start_ = std::chrono::steady_clock::now();
     settled_at_ = settled_at_.value_or(start_);
     last_cycle_at_ = earlier_wall_time_;
-    watch_.emplace(folder_);
     process_ = std::make_unique<engine::EngineProcess>(
         context_, engine_, engine_folder(),
         [this](engine::ExitStatus status) {
@@ -192,7 +181,6 @@ void PackingRun::seal_and_bring_back() {
 
 void PackingRun::inspect() {
     if (!process_) return;  // the packing is still settling
-    watch_->check();
     seal_and_bring_back();
     std::error_code missing;
     auto const size = std::filesystem::file_size(engine_folder() / "cycles.csv", missing);
@@ -242,7 +230,6 @@ std::optional<PackingEnd> PackingRun::go_on() {
 std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
     core_time_ = status.core_time;
     if (engine_.watch) engine_.watch->check();
-    watch_->check();
     engine::RunReport const report = engine::examine_run(engine_folder(), status, engine::Stage::driving);
     bool const is_over = interrupted_ || report.failure || stop_ >= packing_.cycles;
     // The policy may want more cycles of this packing, which then continue from its end.

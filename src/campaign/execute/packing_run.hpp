@@ -6,7 +6,6 @@
 #include "campaign/state/plan.hpp"
 #include "deck/deck.hpp"
 #include "engine/engine.hpp"
-#include "engine/folder_watch.hpp"
 #include "evaluate/packing.hpp"
 
 #include <chrono>
@@ -110,8 +109,7 @@ class PackingRun {
     int sealed_cycle_ = 0;
     bool interrupted_ = false;
     std::uintmax_t seen_size_ = 0;
-    std::optional<engine::FolderWatch> watch_;  ///< since the engine was started
-    std::unique_ptr<RunPlace> place_;           ///< since the engine was first started
+    std::unique_ptr<RunPlace> place_;  ///< since the engine was first started
     std::unique_ptr<engine::EngineProcess> process_;
     std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
 };

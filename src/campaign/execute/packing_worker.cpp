@@ -6,7 +6,6 @@
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/file_lock.hpp"
 #include "core/error.hpp"
-#include "core/own_folder.hpp"
 #include "engine/binary_watch.hpp"
 #include "engine/certificate_cache.hpp"
 #include "engine/stop_signals.hpp"
@@ -164,7 +163,6 @@ WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& i
         deadline = std::chrono::steady_clock::now() +
                    std::chrono::milliseconds(static_cast<long>(*limits.time_limit * 1000));
     }
-    core::OwnFolder const own(campaign_folder);
     engine::Engine engine = same_engine(campaign_folder);
     engine.ranks = limits.ranks;
     PlannedCase const planned = open_case(campaign_folder, id.case_id, engine.version);

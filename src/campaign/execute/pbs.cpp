@@ -52,7 +52,7 @@ std::vector<Listed> read(std::string const& output) {
         std::string_view const name = core::trimmed(std::string_view(line).substr(0, equals));
         std::string const value = line.substr(equals + 3);
         if (name == "job_state") jobs.back().state = value;
-        if (name == "comment") jobs.back().comment = core::printable(value, 60);
+        if (name == "comment") jobs.back().comment = value;
         if (name == "Exit_status") jobs.back().exit_status = number_in<int>(value);
     }
     return jobs;

@@ -32,7 +32,7 @@ constexpr char const* purpose = "vibrotrough-scratch";
     throw core::MissingError(
         fmt::format("run.scratch = \"{}\": {}; name a folder that every machine has on which packings are "
                     "simulated and where you may write, or leave the key out",
-                    core::harmless(scratch), reason));
+                    scratch, reason));
 }
 
 /// Of the lock each folder has its own, and a file that is being written is not there yet.
@@ -51,7 +51,7 @@ std::string decks_in(fs::path const& folder) {
     for (char const* const deck : {deck::settle_file, deck::drive_file}) {
         std::error_code missing;
         if (fs::is_regular_file(fs::symlink_status(folder / deck, missing)))
-            text += core::read_own_file(folder / deck, core::largest_note);
+            text += core::read_file(folder / deck, core::largest_note);
     }
     return text;
 }
@@ -72,7 +72,7 @@ void copy_files(fs::path const& from, fs::path const& to, std::vector<fs::path> 
     std::stable_partition(names.begin(), names.end(), std::not_fn(is_seal));
     for (fs::path const& name : names) {
         if (name.has_parent_path()) core::make_folder((to / name).parent_path());
-        core::write_file_atomically(to / name, core::read_own_file(from / name));
+        core::write_file_atomically(to / name, core::read_file(from / name));
     }
 }
 
@@ -96,7 +96,7 @@ std::string not_brought_back(fs::path const& kept, std::string const& reason) {
         "{}; what the engine computed is kept in {} on {}: call the same command again on that machine, "
         "which "
         "brings it back",
-        reason, core::harmless(kept.string()), core::host_name());
+        reason, kept.string(), core::host_name());
 }
 
 /// Whether a run removes files of this name itself: older checkpoints, and frames that were written after the
@@ -121,8 +121,7 @@ fs::path scratch_here(std::string const& scratch) {
     }
     std::error_code failure;
     if (!folder.is_absolute() || !fs::is_directory(folder, failure))
-        refuse(scratch, fmt::format("there is no folder {} on {}", core::harmless(folder.string()),
-                                    core::host_name()));
+        refuse(scratch, fmt::format("there is no folder {} on {}", folder.string(), core::host_name()));
     return folder;
 }
 
@@ -131,12 +130,11 @@ bool bring_back_kept(fs::path const& home, std::string const& scratch, fs::path 
     fs::path const kept = kept_folder(scratch_here(scratch), name);
     if (!is_private_folder(kept)) return false;
     try {
-        core::OwnFolder const own(kept);
         auto const lock = FileLock::take(kept / engine::writer_file);
         if (!lock) return false;
         core::make_folder(home);
         if (last_checkpoint(kept) >= last_checkpoint(home)) copy_files(kept, home, files_below(kept));
-        core::remove_tree(kept);
+        fs::remove_all(kept);
         return true;
     } catch (core::MissingError const& error) {
         throw core::MissingError(fmt::format("what an earlier run has left in {} cannot be brought back ({})",
@@ -153,7 +151,6 @@ RunPlace::RunPlace(fs::path home, std::string const& scratch, fs::path name) : h
     } catch (core::MissingError const& error) {
         refuse(scratch, error.what());
     }
-    own_.emplace(scratch_->path());
     std::string const decks = decks_in(home_);
     for (auto const& entry : fs::directory_iterator(home_)) {
         std::string const file = entry.path().filename().string();
@@ -172,7 +169,7 @@ RunPlace::~RunPlace() {
 
 void RunPlace::take(fs::path const& name) {
     fs::path const to = folder() / name;
-    core::replace_file(to, core::read_own_file(home_ / name));
+    core::replace_file(to, core::read_file(home_ / name));
     known_[name] = {fs::file_size(to), fs::last_write_time(to)};
     if (!may_go(name)) needed_.insert(name);
 }
@@ -205,7 +202,7 @@ void RunPlace::bring_back() {
     try {
         copy_files(folder(), home_, std::move(changed));
         for (auto const& [name, stamp] : known_) {
-            if (!now.contains(name) && may_go(name)) core::remove_file(home_ / name);
+            if (!now.contains(name) && may_go(name)) fs::remove(home_ / name);
         }
     } catch (core::DiskFullError const& error) {
         throw core::DiskFullError(not_brought_back(kept_, error.what()));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/own_folder.hpp"
 #include "core/temporary_folder.hpp"
 
 #include <cstdint>
@@ -64,7 +63,6 @@ class RunPlace {
     std::filesystem::path kept_;  ///< the private folder's name when it is kept
     bool is_behind_ = false;      ///< the home is not what the last call should have made of it
     std::optional<core::TemporaryFolder> scratch_;
-    std::optional<core::OwnFolder> own_;            ///< of the private folder: no link in it is followed
     std::map<std::filesystem::path, Stamp> known_;  ///< what the home has, by its name below the folder
     std::set<std::filesystem::path> needed_;  ///< what a run never removes: without it the folder was purged
 };

@@ -44,7 +44,7 @@ bool CallAnswer::complains_only_of(std::vector<std::string_view> const& texts) c
 
 std::string CallAnswer::words() const {
     std::string const& text = errors.empty() ? output : errors;
-    return core::printable(text.substr(0, text.find('\n')), 300);
+    return text.substr(0, text.find('\n')).substr(0, 300);
 }
 
 bool has_command(std::string const& name) {
@@ -68,7 +68,7 @@ CallAnswer call_scheduler(std::string_view title, std::vector<std::string> words
                         bp::std_err > errors, bp::start_dir(folder.empty() ? "." : folder.string()), context);
         context.run();
         child.wait();
-        return {child.exit_code(), output.get(), errors.get()};
+        return {child.exit_code(), core::harmless(output.get()), core::harmless(errors.get())};
     } catch (bp::process_error const& error) {
         throw core::MissingError(fmt::format("cannot start {} ({})", words[1], error.code().message()));
     }

@@ -204,7 +204,7 @@ class RunSection {
                 std::string_view const rest = key.path.substr(std::min(section.size(), key.path.size()));
                 if (key.path.starts_with(section) && rest.find('.') == rest.npos) names.push_back(rest);
             }
-            fail(name.source(), core::printable(path, 60), "unknown key",
+            fail(name.source(), path, "unknown key",
                  fmt::format("the keys of this section are {}", fmt::join(names, ", ")));
         }
         found->access.set_run(settings_,
