@@ -1,4 +1,4 @@
-"""A campaign whose engines work in the scratch folder of their node, through a real Slurm and through a PBS by its manual."""
+"""A campaign whose engines work in the scratch folder of their node, through a real Slurm."""
 
 import json
 import os
@@ -9,7 +9,6 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
-from private_pbs import RUN_ON_PBS, PrivatePbs  # noqa: E402
 from private_slurm import RUN_ON_SLURM, PrivateSlurm  # noqa: E402
 from trough_program import EndToEndTest, campaign_text, engines_in, pause, wait_until, without_wall_time  # noqa: E402
 
@@ -79,14 +78,6 @@ class ClusterScratch(EndToEndTest):
         self.addCleanup(os.environ.pop, "TMPDIR", None)
         PrivateSlurm.for_test(self, cpus=2)
         self.lose_a_node_on_the_way(RUN_ON_SLURM, node)
-
-    def test_pbs(self):
-        pbs = PrivatePbs()
-        pbs.__enter__()
-        self.addCleanup(pbs.__exit__)
-        self.addCleanup(os.environ.__setitem__, "PATH", os.environ["PATH"])
-        os.environ["PATH"] = pbs.path
-        self.lose_a_node_on_the_way(RUN_ON_PBS, pbs.folder)  # which gives each task a TMPDIR of its own
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ PAGE = HERE.parent.parent / ".github" / "PROMISES.md"
 FILES = ("security_test.py", "foreign_files_test.py", "persons_files_test.py")
 # Tests elsewhere, as ctest calls them.
 FURTHER = (
-    ("clusters.hostile", "No text of a campaign file reaches a shell, and no deck runs one, except the lines of `run.slurm.setup` or `run.pbs.setup` when the person gives `--allow-setup`, and commands for which the person gives `--allow-extra`."),
+    ("clusters.hostile", "No text of a campaign file reaches a shell, and no deck runs one, except the lines of `run.slurm.setup` when the person gives `--allow-setup`, and commands for which the person gives `--allow-extra`."),
     ("fuzz.notes", "JSON that is nested deeper than 100 levels, or holds numbers and texts that no note of the program can have, is damaged, and what it says is not believed."),
     ("end_to_end.scratch", "With `run.scratch` the engine works in a folder that only this user can read, has a name of its own and is removed with the packing, or by the next one on this machine; where the campaign's folder is full it stays and is named."),
     ("end_to_end.scratch", "No link in such a folder, or in the campaign's, is followed when its files are brought back, and only regular files are."),

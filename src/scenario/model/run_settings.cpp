@@ -21,9 +21,6 @@ constexpr std::array<std::string_view, 20> options_of_sbatch{
     "mail-user",  "nice",       "nodelist",         "oversubscribe", "qos",       "reservation",
     "spread-job", "tmp"};
 
-/// Options of qsub that ask for resources or for mail, or say who pays.
-constexpr std::array<std::string_view, 5> options_of_qsub{"-l", "-m", "-M", "-p", "-P"};
-
 bool is_option_value(std::string_view text) {
     constexpr std::string_view others = "._,:@%+&|()[]*=-";
     return std::ranges::all_of(
@@ -67,20 +64,9 @@ std::string SlurmOption::names() {
     return fmt::format("--{}", fmt::join(options_of_sbatch, ", --"));
 }
 
-std::optional<BatchOption> PbsOption::from(std::string_view text) {
-    if (text.size() < 3 || text.size() > 200 || !is_option_value(text.substr(2))) return {};
-    if (std::ranges::find(options_of_qsub, text.substr(0, 2)) == options_of_qsub.end()) return {};
-    return BatchOption(text);
-}
-
-std::string PbsOption::names() {
-    return fmt::format("{}", fmt::join(options_of_qsub, ", "));
-}
-
 BatchSettings const& RunSettings::batch(std::string_view scheduler) const {
     static BatchSettings const nothing{};
-    if (scheduler == "slurm") return slurm;
-    return scheduler == "pbs" ? pbs : nothing;
+    return scheduler == "slurm" ? slurm : nothing;
 }
 
 }  // namespace vibrotrough::scenario

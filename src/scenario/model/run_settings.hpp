@@ -40,21 +40,12 @@ class BatchOption {
 
   private:
     friend struct SlurmOption;
-    friend struct PbsOption;
     explicit BatchOption(std::string_view text) : text_(text) {}
     std::string text_;
 };
 
 /// Options of sbatch.
 struct SlurmOption {
-    /// The text as an option, or nullopt when it is not an allowed one.
-    static std::optional<BatchOption> from(std::string_view text);
-    /// The names that are allowed, for messages.
-    static std::string names();
-};
-
-/// Options of qsub, such as "-lplace=excl": the letter and its value in one word.
-struct PbsOption {
     /// The text as an option, or nullopt when it is not an allowed one.
     static std::optional<BatchOption> from(std::string_view text);
     /// The names that are allowed, for messages.
@@ -84,7 +75,6 @@ struct RunSettings {
     std::optional<double> time_limit;  ///< largest wall-clock time of a packing, s
     std::string scratch = {};          ///< folder below which engines work, is_scratch(); empty: none
     BatchSettings slurm;               ///< only for the executor "slurm"
-    BatchSettings pbs;                 ///< only for the executor "pbs"
 
     /// What is asked of the scheduler with this name; of one without keys: nothing.
     BatchSettings const& batch(std::string_view scheduler) const;

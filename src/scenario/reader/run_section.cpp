@@ -18,7 +18,8 @@ using enum KeyNeed;
 
 /// Schedulers that users know, for which there is no executor.
 bool is_other_scheduler(std::string_view name) {
-    constexpr std::array<std::string_view, 6> others{"torque", "lsf", "sge", "htcondor", "flux", "parallel"};
+    constexpr std::array<std::string_view, 7> others{"pbs",      "torque", "lsf",     "sge",
+                                                     "htcondor", "flux",   "parallel"};
     return std::ranges::find(others, name) != others.end();
 }
 
@@ -99,8 +100,8 @@ template <auto set>
 constexpr KeyAccess in_run{.set_run = set};
 
 constexpr std::array keys_of_run{
-    Key{"run.executor", KeyKind::choice, "", 0, 0, "local, slurm or pbs", "", optional, "\"slurm\"",
-        "what runs the packings: this machine, or job arrays of Slurm or of PBS", in_run<set_executor>},
+    Key{"run.executor", KeyKind::choice, "", 0, 0, "local or slurm", "", optional, "\"slurm\"",
+        "what runs the packings: this machine, or job arrays of Slurm", in_run<set_executor>},
     Key{"run.retries", KeyKind::integer, "", 0, 100, "0 to 100", "", 0.0, "2",
         "how often a packing is run again after an outcome for which the table of outcomes allows it",
         run_field<&RunSettings::retries>},
@@ -147,27 +148,6 @@ constexpr std::array keys_of_run{
         "engine "
         "if not given",
         run_field<&RunSettings::slurm, &BatchSettings::cores_per_task>},
-    Key{"run.pbs.queue", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "", optional,
-        "\"workq\"", "queue; like all keys of this section, PBS's default if not given",
-        in_run<set_name<&RunSettings::pbs, &BatchSettings::partition>>},
-    Key{"run.pbs.account", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
-        optional, "\"granular\"", "account to which the computing time is charged",
-        in_run<set_name<&RunSettings::pbs, &BatchSettings::account>>},
-    Key{"run.pbs.time", KeyKind::quantity, "s", 60, 3e7, "1 minute to 347 days", "", optional, "\"12 hours\"",
-        "as run.slurm.time", in_run<set_minutes<&RunSettings::pbs>>},
-    Key{"run.pbs.memory", KeyKind::name, "", 0, 0, "1 MB to 1000000 GB", "", optional, "\"2 GB\"",
-        "as run.slurm.memory", in_run<set_memory<&RunSettings::pbs>>},
-    Key{"run.pbs.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "100",
-        "as run.slurm.concurrent_tasks", run_field<&RunSettings::pbs, &BatchSettings::concurrent_tasks>},
-    Key{"run.pbs.minutes_per_task", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "30",
-        "as run.slurm.minutes_per_task", run_field<&RunSettings::pbs, &BatchSettings::minutes_per_task>},
-    Key{"run.pbs.extra", KeyKind::texts, "", 0, 0, "1 to 30 options that ask for resources", "", optional,
-        "[\"-lplace=excl\", \"-Pgranular\"]", "further options of qsub, each with its value in one word",
-        in_run<set_extra_options<&RunSettings::pbs, PbsOption>>},
-    Key{"run.pbs.setup", KeyKind::texts, "", 0, 0, "1 to 30 lines", "", optional, "[\"module load openmpi\"]",
-        "as run.slurm.setup", in_run<set_setup<&RunSettings::pbs>>},
-    Key{"run.pbs.cores_per_task", KeyKind::integer, "", 1, 1024, "1 to 1024", "", optional, "64",
-        "as run.slurm.cores_per_task", run_field<&RunSettings::pbs, &BatchSettings::cores_per_task>},
 };
 
 /// Reads the section [run].
