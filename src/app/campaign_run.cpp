@@ -110,7 +110,6 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     check(options, campaign);
     tell_not_covered(campaign.cases);
     bool const is_interrupted = !certify(engine, options.accept_failed_probes);
-    engine.scratch = campaign.run.scratch;
     campaign::Plan plan = campaign::make_plan(campaign, folder, engine.version);
     plan.own = std::move(own);
     campaign::ExecutorKind const& kind = campaign::executor_kind(campaign.run.executor);

@@ -18,11 +18,8 @@ FILES = ("security_test.py", "foreign_files_test.py", "persons_files_test.py")
 FURTHER = (
     ("clusters.hostile", "No text of a campaign file reaches a shell, and no deck runs one, except the lines of `run.slurm.setup` when the person gives `--allow-setup`, and commands for which the person gives `--allow-extra`."),
     ("fuzz.notes", "JSON that is nested deeper than 100 levels, or holds numbers and texts that no note of the program can have, is damaged, and what it says is not believed."),
-    ("end_to_end.scratch", "With `run.scratch` the engine works in a folder that only this user can read, has a name of its own and is removed with the packing, or by the next one on this machine; where the campaign's folder is full it stays and is named."),
-    ("end_to_end.scratch", "No link in such a folder, or in the campaign's, is followed when its files are brought back, and only regular files are."),
     ("end_to_end.archive", "A bundle from elsewhere writes nothing outside a private folder and fills neither memory nor disk; a file of it that was changed is noticed."),
     ("end_to_end.archive", "No link in a campaign's folder is followed when a bundle is made."),
-    ("end_to_end.scratch", "A packing or a settling that another process works on is left alone, wherever its engine works."),
     ("end_to_end.one_writer", "One driver works in a campaign's folder, under whatever path."),
     ("end_to_end.one_writer", "A process that only has the number of an engine that has ended is not killed."),
     ("end_to_end.deck", "`deck` writes nothing through a symbolic link, and replaces no file that it did not write."),

@@ -208,12 +208,7 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
     refuse_edited_files(plan.folder, files, before);
 
     write_frozen(plan.folder,
-                 {engine.program.string(),
-                  engine.version,
-                  engine.binary_sha256,
-                  engine.scratch,
-                  template_names(plan),
-                  {}},
+                 {engine.program.string(), engine.version, engine.binary_sha256, template_names(plan), {}},
                  files);
     fs::path const certificate = plan.folder / "certificate.json";
     if (engine.certificate.empty()) {
@@ -267,7 +262,6 @@ engine::Engine read_engine(fs::path const& folder) {
     EngineNote const facts = read_facts(folder);
     engine::Engine engine{facts.program, facts.version};
     engine.binary_sha256 = facts.binary_sha256;
-    engine.scratch = facts.scratch;
     return engine;
 }
 

@@ -34,17 +34,6 @@ bool is_plain_text(std::string_view text) {
         text, [](char c) { return is_letter_or_digit(c) || c == '.' || c == '_' || c == '-'; });
 }
 
-bool is_scratch(std::string_view text) {
-    if (text.size() < 2 || text.size() > 200) return false;
-    bool const is_printable = std::ranges::all_of(text, [](char c) { return c > 0x1f && c < 0x7f; });
-    auto const slash = std::min(text.find('/'), text.size());
-    std::string_view const variable = text.substr(0, slash);
-    bool const is_variable =
-        variable.size() > 1 && variable[0] == '$' &&
-        std::ranges::all_of(variable.substr(1), [](char c) { return is_letter_or_digit(c) || c == '_'; });
-    return is_printable && (slash == 0 || is_variable);
-}
-
 std::optional<PlainName> PlainName::from(std::string_view text) {
     if (text.empty() || text.size() > 64 || !is_plain_text(text) || !is_letter_or_digit(text.front()))
         return {};

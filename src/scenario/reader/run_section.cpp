@@ -50,11 +50,6 @@ void set_executor(RunSettings& s, GivenValue const& v) {
     s.executor = v.word();
 }
 
-void set_scratch(RunSettings& s, GivenValue const& v) {
-    if (!is_scratch(v.word())) v.refuse(v.word());
-    s.scratch = v.word();
-}
-
 // The keys of a scheduler's section; `section` is the member of RunSettings that holds its settings.
 
 template <auto section, auto member>
@@ -111,12 +106,6 @@ constexpr std::array keys_of_run{
     Key{"run.time_limit", KeyKind::quantity, "s", 1, 3e7, "1 s to 347 days", "", optional, "\"12 hours\"",
         "largest wall-clock time of a packing, after which its outcome is time-limit; no limit if not given",
         run_field<&RunSettings::time_limit>},
-    Key{"run.scratch", KeyKind::name, "", 0, 0, "an absolute path, or $NAME and what follows", "", optional,
-        "\"$TMPDIR\"",
-        "folder of the machine that runs a packing, below which its engine works in a private folder; "
-        "results "
-        "and checkpoints are brought back. The engine works in the campaign's folder if not given",
-        in_run<set_scratch>},
     Key{"run.slurm.partition", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
         optional, "\"compute\"", "partition; like all keys of this section, Slurm's default if not given",
         in_run<set_name<&RunSettings::slurm, &BatchSettings::partition>>},
