@@ -108,7 +108,6 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     check(options, campaign);
     tell_not_covered(campaign.cases);
     bool const is_interrupted = !certify(engine, options.accept_failed_probes);
-    engine.scratch = campaign.run.scratch;
     campaign::Plan plan = campaign::make_plan(campaign, folder, engine.version);
     campaign::ExecutorKind const& kind = campaign::executor_kind(campaign.run.executor);
     campaign::ExecutorInputs inputs{folder, engine, campaign.run, options.jobs, core::own_program()};

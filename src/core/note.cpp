@@ -1,8 +1,5 @@
 #include "core/note.hpp"
 
-#include "core/hash.hpp"
-
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -96,18 +93,6 @@ int count(Json const& note, std::string const& key, int least) {
 
 std::vector<std::string> texts(Json const& note, std::string const& key) {
     return texts_of(list(note, key), key);
-}
-
-Digests digests(Json const& note, std::string const& key) {
-    Digests found;
-    for (auto const& [name, values] : object(note, key).items()) found[name] = texts_of(values, key);
-    return found;
-}
-
-bool knows(Digests const& digests, std::string const& name, std::string_view content) {
-    auto const known = digests.find(name);
-    return known != digests.end() &&
-           std::ranges::find(known->second, sha256_hex(content)) != known->second.end();
 }
 
 std::string text(Json const& note, std::string const& key) {

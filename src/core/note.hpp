@@ -3,7 +3,6 @@
 #include "core/error.hpp"
 
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,13 +51,6 @@ long whole_number(Json const& note, std::string const& key, long least,
 
 /// The texts of a list. @throws Fault when one is something else
 std::vector<std::string> texts(Json const& note, std::string const& key);
-
-/// The SHA-256 digests that each file which the program wrote may have, by the file's name.
-using Digests = std::map<std::string, std::vector<std::string>>;
-/// An object of lists of digests. @throws Fault when it is missing or something else
-Digests digests(Json const& note, std::string const& key);
-/// Whether a file of this name may have this content.
-bool knows(Digests const& digests, std::string const& name, std::string_view content);
 
 /// A text as it stands. @throws Fault when it is missing or something else
 std::string text(Json const& note, std::string const& key);

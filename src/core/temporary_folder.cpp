@@ -14,9 +14,9 @@ namespace vibrotrough::core {
 
 namespace fs = std::filesystem;
 
-TemporaryFolder::TemporaryFolder(std::string_view purpose, fs::path parent) {
+TemporaryFolder::TemporaryFolder(std::string_view purpose) {
     std::error_code failure;
-    if (parent.empty()) parent = fs::temp_directory_path(failure);
+    fs::path const parent = fs::temp_directory_path(failure);
     if (failure) {
         throw MissingError(
             fmt::format("there is no folder for temporary files ({}); set TMPDIR to a folder that exists",
@@ -33,7 +33,7 @@ TemporaryFolder::TemporaryFolder(std::string_view purpose, fs::path parent) {
 
 TemporaryFolder::~TemporaryFolder() {
     std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
+    fs::remove_all(path_, ignored);
 }
 
 }  // namespace vibrotrough::core

@@ -12,19 +12,12 @@ class TemporaryFolder {
     /// Makes the folder below TMPDIR, or below /tmp if that is not set.
     /// @param purpose  beginning of the folder's name, such as "vibrotrough-probe"
     /// @throws MissingError when the folder cannot be made
-    explicit TemporaryFolder(std::string_view purpose = "vibrotrough", std::filesystem::path parent = {});
+    explicit TemporaryFolder(std::string_view purpose = "vibrotrough");
     ~TemporaryFolder();
     TemporaryFolder(TemporaryFolder const&) = delete;
     TemporaryFolder& operator=(TemporaryFolder const&) = delete;
 
     std::filesystem::path const& path() const { return path_; }  ///< of the folder
-    bool keep_as(std::filesystem::path const& name) {
-        std::error_code e;
-        std::filesystem::rename(path_, name, e);
-        if (e) return false;
-        path_.clear();
-        return true;
-    }
 
   private:
     std::filesystem::path path_;

@@ -6,7 +6,6 @@
 #include "campaign/state/notes.hpp"
 #include "core/hash.hpp"
 #include "core/note.hpp"
-#include "deck/deck_folder.hpp"
 #include "engine/certificate.hpp"
 #include "evaluate/packing_files.hpp"
 #include "learn/design_file.hpp"
@@ -121,7 +120,6 @@ void check_campaign(std::string_view text) {
         std::string const written = campaign::to_json(*observables);
         require(campaign::to_json(campaign::parse_observables(written)) == written);
     }
-    believed([&] { return deck::parse_written(text); });
 }
 
 void check_learned(std::string_view text) {

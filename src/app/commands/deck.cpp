@@ -90,7 +90,7 @@ void add_deck(CLI::App& program, int& exit_code) {
         R"(Writes a folder with the complete input of LIGGGHTS for each packing of each case, and prints how to
 run one by hand. The packings are those with which 'vibrotrough run' begins, with the same starts and numbers of cycles;
 by hand they give the same numbers. The file control.in says after which cycle a run ends. The command does not need
-LIGGGHTS. It replaces the files of an earlier call, but none that you wrote or edited.
+LIGGGHTS. It replaces no file: give another folder for another deck.
 
 Example:
   vibrotrough deck validation/demo/campaign.toml --output decks)");

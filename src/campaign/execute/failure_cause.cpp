@@ -1,6 +1,5 @@
 #include "campaign/execute/failure_cause.hpp"
 
-#include "campaign/execute/run_place.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
@@ -35,17 +34,6 @@ std::optional<std::string> full_disk(fs::path const& folder) {
     return reason;
 }
 
-/// The same of a private folder of this machine, as the engine has one.
-std::optional<std::string> full_scratch(std::string const& scratch) {
-    if (scratch.empty()) return {};
-    try {
-        core::TemporaryFolder const probe("vibrotrough-scratch", scratch_here(scratch));
-        return full_disk(probe.path());
-    } catch (core::MissingError const&) {
-        return {};  // it cannot be used, which is said where it is made
-    }
-}
-
 }  // namespace
 
 long count_memory_kills() {
@@ -59,8 +47,7 @@ long count_memory_kills() {
     }
 }
 
-PackingEnd find_cause(PlannedCase const& planned, int packing, PackingEnd end, long memory_kills,
-                      std::string const& scratch) {
+PackingEnd find_cause(PlannedCase const& planned, int packing, PackingEnd end, long memory_kills) {
     if (!end.failure || end.failure == core::Outcome::interrupted || end.failure == core::Outcome::disk_full)
         return end;  // it is known already
     fs::path const folder = planned.packing_folder(packing);
@@ -71,9 +58,6 @@ PackingEnd find_cause(PlannedCase const& planned, int packing, PackingEnd end, l
                reason && end.failure != core::Outcome::out_of_memory) {
         end.failure = core::Outcome::disk_full;
         end.message = fmt::format("{} takes no more ({})", folder.string(), *reason);
-    } else if (auto const full = full_scratch(scratch); full && end.failure != core::Outcome::out_of_memory) {
-        end.failure = core::Outcome::disk_full;
-        end.message = fmt::format("run.scratch = \"{}\" takes no more ({})", scratch, *full);
     } else if (end.signal == SIGXFSZ) {
         end.failure = core::Outcome::disk_full;
         end.message = fmt::format("a file of {} cannot grow ({})", folder.string(), core::reason_of(EFBIG));

@@ -159,8 +159,7 @@ class LocalExecutor : public Executor {
             end = {core::Outcome::time_limit,
                    fmt::format("not finished after {:.0f} s", inputs_.settings.time_limit.value_or(0))};
         }
-        end = find_cause(*order.planned, order.packing.number, end, place->memory_kills,
-                         inputs_.engine.scratch);
+        end = find_cause(*order.planned, order.packing.number, end, place->memory_kills);
         EndedPacking result{
             order.id(),        end.failure, end.message, place->run->cycles(), place->run->core_time(),
             place->run->time()};

@@ -124,7 +124,6 @@ engine::Engine same_engine(std::filesystem::path const& folder) {
                         "'vibrotrough run' again, which tests it",
                         planned.program.string()));
     }
-    here.scratch = planned.scratch;
     here.watch = std::make_shared<engine::BinaryWatch const>(identity);
     return here;
 }
@@ -186,7 +185,7 @@ WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& i
         evaluate::remove_marker(planned.packing_folder(id.packing));  // of a run with fewer cycles
         long const memory_kills = count_memory_kills();
         Attempt running(engine, campaign_folder, planned, *packing, deadline);
-        PackingEnd const end = find_cause(planned, id.packing, running.run(), memory_kills, engine.scratch);
+        PackingEnd const end = find_cause(planned, id.packing, running.run(), memory_kills);
         if (!end.failure) {
             evaluated.insert_or_assign(id.packing, running.take_evaluated());
             attempt = -1;

@@ -1,6 +1,5 @@
 #include "campaign/execute/settled_packings.hpp"
 
-#include "campaign/execute/run_place.hpp"
 #include "campaign/state/file_lock.hpp"
 #include "campaign/state/notes.hpp"
 #include "core/atomic_file.hpp"
@@ -81,7 +80,7 @@ void publish(fs::path const& made, fs::path const& place, deck::Deck const& deck
     fs::remove_all(made);
 }
 
-/// The file that whoever settles a packing in this folder holds locked, wherever the engine works.
+/// The file that whoever settles a packing in this folder holds locked.
 fs::path lock_of(fs::path const& folder) {
     return folder.native() + ".lock";
 }
@@ -96,7 +95,6 @@ struct SettledPackings::Settling {
     double weight = 0;
     std::vector<Ready> waiting = {};
     bool interrupted = false;
-    std::unique_ptr<RunPlace> place = {};
     std::unique_ptr<engine::EngineProcess> process = {};
 };
 
@@ -129,15 +127,8 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
     settling->waiting.push_back(std::move(ready));
     fs::remove_all(settling->folder);
     deck::write_files(deck::for_ranks(deck.settle_files, engine_.ranks), settling->folder);
-    if (bring_back_kept(settling->folder, engine_.scratch, folder_ / key)) {
-        settling_.emplace(key, std::move(settling));
-        boost::asio::post(context_, [this, key] { ended(key, {}); });
-        return;
-    }
-    settling->place = std::make_unique<RunPlace>(settling->folder, engine_.scratch, folder_ / key);
     settling->process = std::make_unique<engine::EngineProcess>(
-        context_, engine_, settling->place->folder(),
-        [this, key](engine::ExitStatus status) { ended(key, status); },
+        context_, engine_, settling->folder, [this, key](engine::ExitStatus status) { ended(key, status); },
         engine::Launch{deck::settle_file, {}});
     settling_.emplace(key, std::move(settling));
 }
@@ -187,7 +178,6 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
     Settled settled{core::Outcome::interrupted, "the settling was interrupted"};
     if (engine_.watch && !settling->interrupted) engine_.watch->check();
     try {
-        if (settling->place && !settling->interrupted) settling->place->bring_back();
         if (!settling->interrupted) settled = judge(settling->folder, status, settling->weight);
     } catch (core::DiskFullError const& error) {
         settled = {core::Outcome::disk_full, error.what()};

@@ -140,10 +140,9 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
     }
     refuse_other_campaign(plan);
     refuse_foreign_folder(plan.folder, files);
-    write_frozen(
-        plan.folder,
-        {engine.program.string(), engine.version, engine.binary_sha256, engine.scratch, template_names(plan)},
-        files);
+    write_frozen(plan.folder,
+                 {engine.program.string(), engine.version, engine.binary_sha256, template_names(plan)},
+                 files);
     fs::path const certificate = plan.folder / "certificate.json";
     if (engine.certificate.empty()) {
         fs::remove(certificate);  // it belongs to another engine
@@ -176,7 +175,6 @@ engine::Engine read_engine(fs::path const& folder) {
     EngineNote const facts = read_facts(folder);
     engine::Engine engine{facts.program, facts.version};
     engine.binary_sha256 = facts.binary_sha256;
-    engine.scratch = facts.scratch;
     return engine;
 }
 

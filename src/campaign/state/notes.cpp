@@ -76,7 +76,6 @@ EngineNote parse_engine(std::string_view text) {
     EngineNote engine{core::bytes_of_utf8(note::text(json, "program")),
                       note::text(json, "version"),
                       note::text_if_any(json, "binary_sha256"),
-                      note::text_if_any(json, "scratch"),
                       {}};
     if (json.contains("templates")) engine.templates = note::texts(json, "templates");
     for (std::string const& name : engine.templates) {
@@ -88,7 +87,6 @@ EngineNote parse_engine(std::string_view text) {
 std::string to_json(EngineNote const& note) {
     Json json{{"program", core::utf8_of_bytes(note.program)}, {"version", note.version}};
     if (!note.binary_sha256.empty()) json["binary_sha256"] = note.binary_sha256;
-    if (!note.scratch.empty()) json["scratch"] = note.scratch;
     if (!note.templates.empty()) json["templates"] = note.templates;
     return json.dump(2) + "\n";
 }
