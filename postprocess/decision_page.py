@@ -36,9 +36,7 @@ RULES = {"v = 3.81 N S, of which 70 to 80 % are used in practice": "v = 3.81 N S
 def svg_of(figure: Figure, title: str) -> Any:
     content = io.BytesIO()
     figure.savefig(content, format="svg", metadata={"Date": None})
-    drawing = drawing_of(content.getvalue())
-    assert drawing is not None  # matplotlib only draws
-    return inline_svg(drawing, 1, title)
+    return inline_svg(drawing_of(content.getvalue()), 1, title)
 
 
 def allowed(ends: list[float], unit: str) -> str:

@@ -11,7 +11,6 @@
 #include "campaign/state/overview.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/own_folder.hpp"
 #include "core/own_program.hpp"
 #include "deck/campaign_check.hpp"
 
@@ -102,7 +101,6 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     fs::path const folder =
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     core::make_folder(folder);
-    auto own = std::make_shared<core::OwnFolder const>(folder);
     {
         // Fail now, before anything else is done, if the disk is full or another driver works in the folder.
         campaign::FolderLock const lock(folder);
@@ -110,9 +108,7 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     check(options, campaign);
     tell_not_covered(campaign.cases);
     bool const is_interrupted = !certify(engine, options.accept_failed_probes);
-    engine.scratch = campaign.run.scratch;
     campaign::Plan plan = campaign::make_plan(campaign, folder, engine.version);
-    plan.own = std::move(own);
     campaign::ExecutorKind const& kind = campaign::executor_kind(campaign.run.executor);
     campaign::ExecutorInputs inputs{folder, engine, campaign.run, options.jobs, core::own_program()};
     inputs.foreign_commands = {options.allow_extra,

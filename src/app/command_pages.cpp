@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <functional>
 #include <sstream>
-#include <stdexcept>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -137,17 +136,19 @@ std::string options_as_table(CLI::App const& app) {
     return rows.empty() ? "" : "\n| option | meaning |\n|---|---|\n" + rows;
 }
 
-/// A word between single quotes for bash, zsh and fish.
-std::string quoted(std::string const& text, std::string_view quote) {
-    return "'" + replaced(text, "'", quote) + "'";
+/// A word between single quotes for bash.
+std::string quoted(std::string const& text) {
+    return "'" + replaced(text, "'", "'\\''") + "'";
 }
 
-std::string bash_completion(std::vector<Command> const& commands) {
+}  // namespace
+
+std::string bash_completion(CLI::App const& program) {
     std::string cases;
-    for (Command const& command : commands) {
-        cases += fmt::format("        {}) words={} ;;\n",
-                             quoted(fmt::format("{}", fmt::join(command.words, " ")), "'\\''"),
-                             quoted(fmt::format("{}", fmt::join(words_after(command), " ")), "'\\''"));
+    for (Command const& command : commands_of(program)) {
+        cases +=
+            fmt::format("        {}) words={} ;;\n", quoted(fmt::format("{}", fmt::join(command.words, " "))),
+                        quoted(fmt::format("{}", fmt::join(words_after(command), " "))));
     }
     return fmt::format(R"(# bash completion of vibrotrough; made by 'vibrotrough completion bash'
 _vibrotrough() {{
@@ -172,70 +173,6 @@ complete -F _vibrotrough vibrotrough
 )",
                        cases);
 }
-
-std::string zsh_completion(std::vector<Command> const& commands) {
-    std::string cases;
-    for (Command const& command : commands) {
-        std::string entries;
-        auto const add = [&](std::string const& word, std::string const& description) {
-            entries += " " + quoted(replaced(word, ":", "\\:") + ":" + summary_of(description), "'\\''");
-        };
-        for (CLI::App const* const one : subcommands_of(*command.app))
-            add(one->get_name(), one->get_description());
-        for (CLI::Option const* const option : options_of(*command.app)) {
-            for (std::string const& name : spellings(*option)) add(name, option->get_description());
-        }
-        cases += fmt::format("        {}) entries=({}) ;;\n",
-                             quoted(fmt::format("{}", fmt::join(command.words, " ")), "'\\''"), entries);
-    }
-    return fmt::format(R"(#compdef vibrotrough
-# zsh completion of vibrotrough; made by 'vibrotrough completion zsh'
-_vibrotrough() {{
-    local path_so_far='' word
-    local -a entries
-    for word in ${{words[2,CURRENT-1]}}; do
-        _vibrotrough_entries "$path_so_far"
-        [[ $word != -* && -n ${{entries[(r)$word:*]}} ]] || break
-        path_so_far="${{path_so_far:+$path_so_far }}$word"
-    done
-    _vibrotrough_entries "$path_so_far"
-    _describe 'vibrotrough' entries || _files
-    _files
-}}
-_vibrotrough_entries() {{
-    case $1 in
-{}    esac
-}}
-_vibrotrough "$@"
-)",
-                       cases);
-}
-
-std::string fish_completion(std::vector<Command> const& commands) {
-    std::string lines = "# fish completion of vibrotrough; made by 'vibrotrough completion fish'\n";
-    for (Command const& command : commands) {
-        std::string condition =
-            command.words.empty()
-                ? std::string("__fish_use_subcommand")
-                : fmt::format("__fish_seen_subcommand_from {}",
-                              fmt::join(command.words, "; and __fish_seen_subcommand_from "));
-        auto const begin = "complete -c vibrotrough -n " + quoted(condition, "\\'");
-        for (CLI::App const* const one : subcommands_of(*command.app)) {
-            lines += fmt::format("{} -f -a {} -d {}\n", begin, one->get_name(),
-                                 quoted(summary_of(one->get_description()), "\\'"));
-        }
-        for (CLI::Option const* const option : options_of(*command.app)) {
-            for (std::string const& name : option->get_lnames()) {
-                lines +=
-                    fmt::format("{} -l {}{} -d {}\n", begin, name, option->get_type_size() == 0 ? "" : " -r",
-                                quoted(summary_of(option->get_description()), "\\'"));
-            }
-        }
-    }
-    return lines;
-}
-
-}  // namespace
 
 std::string manual_page(CLI::App const& program) {
     std::string text = fmt::format(
@@ -292,14 +229,6 @@ std::string command_reference(CLI::App const& program) {
     return "# All commands\n\nPrinted by `vibrotrough manual --markdown`; `vibrotrough COMMAND --help` shows "
            "the same for one command.\n\n| command | what it does |\n|---|---|\n" +
            contents + sections;
-}
-
-std::string shell_completion(CLI::App const& program, std::string const& shell) {
-    std::vector<Command> const commands = commands_of(program);
-    if (shell == "bash") return bash_completion(commands);
-    if (shell == "zsh") return zsh_completion(commands);
-    if (shell == "fish") return fish_completion(commands);
-    throw std::invalid_argument("there are completions for bash, zsh and fish");
 }
 
 }  // namespace vibrotrough::app

@@ -16,9 +16,7 @@ std::string manual_page(CLI::App const& program);
 /// options and its help text.
 std::string command_reference(CLI::App const& program);
 
-/// What makes a shell complete commands and options.
-/// @param shell  "bash", "zsh" or "fish"
-/// @throws std::invalid_argument for any other shell
-std::string shell_completion(CLI::App const& program, std::string const& shell);
+/// What makes bash complete commands and options.
+std::string bash_completion(CLI::App const& program);
 
 }  // namespace vibrotrough::app

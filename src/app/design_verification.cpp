@@ -8,7 +8,6 @@
 #include "campaign/state/result_summary.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/own_folder.hpp"
 #include "learn/corrected_model.hpp"
 #include "learn/design_campaign.hpp"
 #include "learn/design_report.hpp"

@@ -2,7 +2,6 @@
 
 #include "app/standard_streams.hpp"
 #include "core/error.hpp"
-#include "core/text.hpp"
 #include "engine/binary_watch.hpp"
 #include "engine/certificate_cache.hpp"
 #include "engine/probe.hpp"
@@ -17,7 +16,7 @@ namespace {
 
 std::optional<engine::Certificate> probe(engine::Engine const& engine,
                                          engine::EngineIdentity const& identity) {
-    tell("probing {} (once per binary, a few seconds)\n", core::harmless(engine.program.string()));
+    tell("probing {} (once per binary, a few seconds)\n", engine.program.string());
     auto const start = std::chrono::steady_clock::now();
     auto const certificate = engine::probe_engine(engine, identity);
     if (!certificate) return {};

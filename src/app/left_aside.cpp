@@ -1,13 +1,12 @@
 #include "app/left_aside.hpp"
 
 #include "app/standard_streams.hpp"
-#include "core/text.hpp"
 
 namespace vibrotrough::app {
 
 void tell_left_aside(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
     std::string const words = describe(campaign::find_left_aside(plan, cases), plan);
-    if (!words.empty()) tell("vibrotrough: left aside: {}\n", core::harmless(words));
+    if (!words.empty()) tell("vibrotrough: left aside: {}\n", words);
 }
 
 }  // namespace vibrotrough::app

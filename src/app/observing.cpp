@@ -10,7 +10,6 @@
 #include "core/note.hpp"
 #include "core/shell.hpp"
 #include "core/temporary_folder.hpp"
-#include "core/text.hpp"
 #include "evaluate/observable.hpp"
 
 #include <algorithm>
@@ -59,9 +58,7 @@ class Exchange {
             fmt::format("{} ended with exit code {}; the reason is in its messages above", script, code));
     }
 
-    Json read(std::string const& name) const {
-        return note::parse(core::read_own_file(folder_.path() / name));
-    }
+    Json read(std::string const& name) const { return note::parse(core::read_file(folder_.path() / name)); }
 
   private:
     core::TemporaryFolder folder_{"vibrotrough-observe"};
@@ -90,7 +87,7 @@ void check_unit(std::string const& name, std::string const& unit) {
     throw core::InputError(
         fmt::format("{}: '{}' is not a unit; write one such as \"m/s\", \"kg/m3\", or \"1\" for a "
                     "pure number",
-                    core::harmless(name), core::printable(unit, 40)));
+                    name, unit));
 }
 
 void check_function(Function const& function) {
@@ -99,7 +96,7 @@ void check_function(Function const& function) {
         throw core::InputError(
             fmt::format("'{}' cannot be the name of an observable; write lower-case letters, "
                         "digits and _, at most 60 of them",
-                        core::printable(one.name, 80)));
+                        one.name));
     }
     check_unit(one.name, one.unit);
     if (!one.is_number()) check_unit(one.name, one.over_unit);
@@ -121,20 +118,20 @@ std::vector<Function> functions_in(Json const& list, ObservableSource const& sou
         if (!only.empty() && std::ranges::find(only, names.back()) == only.end()) continue;
         functions.push_back({{names.back(),
                               note::text(one, "unit"),
-                              note::line(one, "meaning"),
-                              note::line(one, "over"),
+                              note::text(one, "meaning"),
+                              note::text(one, "over"),
                               note::text(one, "over_unit"),
                               fs::path(source.file).filename().string(),
                               source.text,
                               source.sha256,
                               {}},
-                             note::line(one, "needs")});
+                             note::text(one, "needs")});
         check_function(functions.back());
     }
     for (std::string const& name : only) {
         if (std::ranges::find(names, name) != names.end()) continue;
-        throw core::InputError(fmt::format("--only: {} has no observable {}; it has {}", source.file,
-                                           core::printable(name, 60), fmt::join(names, ", ")));
+        throw core::InputError(fmt::format("--only: {} has no observable {}; it has {}", source.file, name,
+                                           fmt::join(names, ", ")));
     }
     return functions;
 }
@@ -193,8 +190,7 @@ std::string missing(std::string const& needs) {
             "no packing keeps contacts (layers of spheres can): write contacts = true and frames_per_cycle = "
             "20 under [output] in the campaign file{}, and run it again",
             of_all);
-    return fmt::format("no packing has the file {}",
-                       needs == "cycles" ? "cycles.csv" : core::harmless(needs));
+    return fmt::format("no packing has the file {}", needs == "cycles" ? "cycles.csv" : needs);
 }
 
 }  // namespace
@@ -208,13 +204,13 @@ ObservableSource read_observable_source(std::string const& file, std::string con
     fs::path const path = fs::absolute(file).lexically_normal();
     std::error_code failure;
     if (!fs::is_regular_file(path, failure))
-        throw core::InputError(fmt::format("{}: there is no such file", core::harmless(file)));
+        throw core::InputError(fmt::format("{}: there is no such file", file));
     if (allowed.empty() || !fs::equivalent(path, allowed, failure)) {
         std::string const word = core::shell_word(file);
-        throw core::InputError(fmt::format(
-            "{} is a program in Python, which can do anything that you can; read it, and "
-            "if you trust it allow it with --allow-python {}{}",
-            core::harmless(file), word, allowed.empty() ? "" : " (--allow-python names another file)"));
+        throw core::InputError(
+            fmt::format("{} is a program in Python, which can do anything that you can; read it, and "
+                        "if you trust it allow it with --allow-python {}{}",
+                        file, word, allowed.empty() ? "" : " (--allow-python names another file)"));
     }
     return source_of(path, core::read_file(path, core::largest_note));
 }

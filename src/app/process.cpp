@@ -1,13 +1,10 @@
 #include "app/process.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 
 #include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace vibrotrough::app {
@@ -26,15 +23,6 @@ void open_standard_streams() {
 /// LC_ALL is stronger than all others; Python takes C for UTF-8.
 void set_locale() {
     ::setenv("LC_ALL", "C", 1);
-}
-
-/// Up to what programs that use select() can count.
-void raise_open_files() {
-    constexpr rlim_t most = 1024;
-    rlimit limit{};
-    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= most) return;
-    limit.rlim_cur = std::min(limit.rlim_max, most);
-    ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 void do_nothing(int /*signal*/) {}
@@ -58,8 +46,6 @@ void set_signals() {
 
 void prepare_process() {
     open_standard_streams();
-    ::umask((::umask(0) & 077) | 02);
-    raise_open_files();
     set_locale();
     set_signals();
 }

@@ -2,17 +2,11 @@
 
 namespace vibrotrough::app {
 
-/// Of every command: a campaign's folder, its files, libraries, and pipes to a program that is started.
-inline constexpr unsigned long least_open_files = 10;
-
 /// Makes the process independent of how it was started, before it does anything else and before there is a
 /// second thread. What is set here holds for all threads and for the programs that this one starts.
 ///
 /// - Standard input, output and error are open, so that no file that is opened later takes the number of one
 ///   of them.
-/// - The owner may read and change what the program makes, and nobody else may change it, unless in the same
-///   group, whatever the umask says: a campaign's folder names a program that is started.
-/// - As many files may be open as the limit can be raised to.
 /// - The locale is C. No number that this program, LIGGGHTS or Python writes may have a decimal comma, paths
 ///   are bytes, and a locale that is not installed, as ssh brings it from another machine, is never asked
 ///   for.

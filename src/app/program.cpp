@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/nearest.hpp"
-#include "core/text.hpp"
 #include "scenario/reader/other_words.hpp"
 
 #include <algorithm>
@@ -225,17 +224,15 @@ int run_program(std::string_view program_with_vtk, int argc, char** argv) {
     try {
         continue_with_vtk(program_with_vtk, argc, argv);
         prepare_process();
-        core::require_open_files(least_open_files, "this program needs");
         int const exit_code = run(argc, argv);
         flush_output();
         return exit_code;
     } catch (core::Error const& error) {
-        for (std::string const& problem : error.problems())
-            tell("vibrotrough: {}\n", core::harmless(problem));
+        for (std::string const& problem : error.problems()) tell("vibrotrough: {}\n", problem);
         return error.kind() == core::ErrorKind::input ? wrong_input : something_missing;
     } catch (std::system_error const& error) {
         tell("vibrotrough: {}; check the disk and its permissions, and the limits (ulimit -a)\n",
-             core::harmless(error.what()));
+             error.what());
         return something_missing;
     } catch (std::bad_alloc const&) {
         tell("vibrotrough: there is not enough memory; use a smaller campaign or another machine\n");

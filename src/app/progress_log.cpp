@@ -2,18 +2,15 @@
 
 #include "app/standard_streams.hpp"
 #include "core/error.hpp"
-#include "core/own_folder.hpp"
 #include "core/text.hpp"
 #include "core/time.hpp"
 #include "core/version.hpp"
 
 #include <cmath>
-#include <mutex>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <spdlog/sinks/base_sink.h>
+#include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -49,31 +46,6 @@ Json as_json(campaign::RunningPacking const& one) {
     }
     return json;
 }
-
-/// Adds whole lines to a file of the campaign. spdlog's own sink would write through a symbolic link.
-class LogSink : public spdlog::sinks::base_sink<std::mutex> {
-  public:
-    explicit LogSink(std::filesystem::path const& path) {
-        core::check_own_file(path);
-        descriptor_ = core::ParentFolder(path).open(O_WRONLY | O_APPEND | O_CREAT | O_NONBLOCK);
-        if (descriptor_ < 0) throw core::MissingError(core::reason_of_errno());
-    }
-    ~LogSink() override { ::close(descriptor_); }
-    LogSink(LogSink const&) = delete;
-    LogSink& operator=(LogSink const&) = delete;
-
-  protected:
-    void sink_it_(spdlog::details::log_msg const& message) override {
-        spdlog::memory_buf_t line;
-        formatter_->format(message, line);
-        // A line that is lost, on a full disk for example, must not stop the campaign.
-        [[maybe_unused]] ssize_t const written = ::write(descriptor_, line.data(), line.size());
-    }
-    void flush_() override {}
-
-  private:
-    int descriptor_ = -1;
-};
 
 }  // namespace
 
@@ -114,24 +86,23 @@ void JsonProgress::noticed(campaign::PlannedCase const& planned, std::string con
 
 CampaignLog::CampaignLog(std::filesystem::path const& folder) {
     try {
-        logger_ =
-            std::make_shared<spdlog::logger>("campaign", std::make_shared<LogSink>(folder / "campaign.log"));
+        logger_ = std::make_shared<spdlog::logger>(
+            "campaign",
+            std::make_shared<spdlog::sinks::basic_file_sink_mt>((folder / "campaign.log").string()));
         logger_->set_pattern("%Y-%m-%dT%H:%M:%SZ %l %v", spdlog::pattern_time_type::utc);
         logger_->flush_on(spdlog::level::info);
         logger_->set_error_handler([](std::string const&) {});
     } catch (spdlog::spdlog_ex const&) {
         logger_ = nullptr;
-    } catch (core::MissingError const&) {
-        logger_ = nullptr;
     }
 }
 
 void CampaignLog::info(std::string const& line) const {
-    if (logger_) logger_->info("{}", core::printable(line, 1000));
+    if (logger_) logger_->info("{}", core::harmless(line));
 }
 
 void CampaignLog::warn(std::string const& line) const {
-    if (logger_) logger_->warn("{}", core::printable(line, 1000));
+    if (logger_) logger_->warn("{}", core::harmless(line));
 }
 
 LoggingObserver::LoggingObserver(campaign::Observer& next, std::filesystem::path folder)

@@ -1,7 +1,6 @@
 #include "app/progress_printer.hpp"
 
 #include "app/standard_streams.hpp"
-#include "core/text.hpp"
 
 #include <cmath>
 
@@ -106,12 +105,12 @@ void ProgressPrinter::case_ended(campaign::PlannedCase const& planned, core::Out
                                  std::string const& message) {
     clear_lines();
     tell("case {}{}: {}{}{}\n", planned.id, planned.label.empty() ? "" : fmt::format(" ({})", planned.label),
-         core::name_of(outcome), message.empty() ? "" : ": ", core::harmless(message));
+         core::name_of(outcome), message.empty() ? "" : ": ", message);
 }
 
 void ProgressPrinter::noticed(campaign::PlannedCase const& planned, std::string const& message) {
     clear_lines();
-    tell("case {}: {}\n", planned.id, core::harmless(message));
+    tell("case {}: {}\n", planned.id, message);
 }
 
 void ProgressPrinter::stopping() {
@@ -121,8 +120,8 @@ void ProgressPrinter::stopping() {
 
 void ProgressPrinter::clear_lines() {
     if (terminal_ && !lines_.empty()) {
-        tell("\r\x1b[K");
-        for (std::size_t i = 1; i < lines_.size(); ++i) tell("\x1b[A\x1b[K");
+        tell_text("\r\x1b[K");
+        for (std::size_t i = 1; i < lines_.size(); ++i) tell_text("\x1b[A\x1b[K");
     }
     lines_.clear();
 }

@@ -12,7 +12,6 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "core/shell.hpp"
 #include "core/version.hpp"
 
 #include <algorithm>
@@ -21,7 +20,6 @@
 #include <tuple>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace vibrotrough::archive {
@@ -63,7 +61,7 @@ class Bundle {
     }
     void add(std::vector<StoredFile> const& files) {
         for (StoredFile const& file : files)
-            add(file.name, file.content ? *file.content : core::read_own_file(file.source));
+            add(file.name, file.content ? *file.content : core::read_file(file.source));
     }
     std::vector<ListedFile> const& files() const { return files_; }
     bool has(std::string_view start) const {
@@ -99,7 +97,7 @@ void refuse_unfinished_work(campaign::Plan const& plan, campaign::Activity const
 void refuse_damaged_results(std::vector<campaign::CaseOverview> const& cases) {
     for (campaign::CaseOverview const& one : cases) {
         std::error_code missing;
-        if (one.result || !fs::exists(fs::symlink_status(one.planned->result_file(), missing))) continue;
+        if (one.result || !fs::exists(one.planned->result_file(), missing)) continue;
         throw_damaged(one.planned->result_file());
     }
 }
@@ -117,23 +115,9 @@ void refuse_to_leave_out(std::vector<campaign::CaseOverview> const& cases) {
         first.planned->id, first.fault.empty() ? first.label() : first.fault));
 }
 
-/// Nor would anybody notice that the bundle holds another campaign file than the one that was run.
-void refuse_edited_files(campaign::Plan const& plan) {
-    auto const edited = campaign::edited_files(plan.folder);
-    if (edited.empty()) return;
-    std::string const file = core::shell_word(plan.folder / "campaign.toml");
-    throw core::InputError(fmt::format(
-        "{} in {} {} not what was run: {} changed since, and {} case folders belong to no case of "
-        "it; go on with 'vibrotrough run {} --output {}', bring back what was run, or archive what "
-        "fits with --partial",
-        fmt::join(edited, ", "), plan.folder.string(), edited.size() == 1 ? "is" : "are",
-        edited.size() == 1 ? "it was" : "they were", campaign::count_left_aside(plan), file,
-        core::shell_word(plan.folder)));
-}
-
 void refuse_to_replace(fs::path const& output) {
     std::error_code missing;
-    if (!fs::exists(fs::symlink_status(output, missing)) || first_name_in_zip(output) == facts_file) return;
+    if (!fs::exists(output, missing) || first_name_in_zip(output) == facts_file) return;
     throw core::InputError(fmt::format(
         "{} is there already and is not a bundle; choose another file with --output", output.string()));
 }
@@ -222,7 +206,6 @@ BundleReport write_bundle(campaign::Plan const& plan, campaign::Activity const& 
     refuse_damaged_results(compared.cases);
     if (!rotten.empty()) throw_damaged(std::ranges::min(rotten));
     if (!words.partial) {
-        refuse_edited_files(plan);
         refuse_to_leave_out(compared.cases);
     }
 

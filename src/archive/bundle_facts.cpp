@@ -8,11 +8,11 @@ BundleFacts parse_facts(std::string_view text) {
     if (note::text(json, "format") != "vibrotrough archive" || note::count(json, "schema_version", 0) != 1)
         throw note::Fault("it does not describe a bundle that this version knows");
     BundleFacts facts{static_cast<std::size_t>(note::count(json, "results", 0)),
-                      note::line(note::object(json, "archived_with"), "program_version"),
+                      note::text(note::object(json, "archived_with"), "program_version"),
                       {}};
     for (note::Json const& one : note::list(json, "ended_without_result")) {
         auto const outcome = core::outcome_named(note::text(one, "outcome"));
-        std::string const id = note::line(one, "case");
+        std::string const id = note::text(one, "case");
         if (outcome && !core::has_result(*outcome)) facts.failures.emplace(id, *outcome);
     }
     return facts;

@@ -5,8 +5,6 @@
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/observables.hpp"
 #include "core/error.hpp"
-#include "core/own_folder.hpp"
-#include "core/text.hpp"
 #include "deck/deck.hpp"
 
 #include <algorithm>
@@ -24,29 +22,25 @@ class Collection {
   public:
     explicit Collection(fs::path folder) : folder_(std::move(folder)) {}
 
-    /// Adds a file or symbolic link if there is one; whoever reads a link refuses it.
+    /// Adds a file if there is one.
     void add(std::string const& name) {
         std::error_code missing;
-        auto const type = fs::symlink_status(folder_ / name, missing).type();
-        if (type == fs::file_type::not_found || type == fs::file_type::directory || missing) return;
+        if (!fs::exists(folder_ / name, missing) || fs::is_directory(folder_ / name, missing)) return;
         if (!is_safe_name(name)) {
-            throw core::InputError(fmt::format("{}: a bundle holds no file of this name; rename it",
-                                               core::harmless((folder_ / name).string())));
+            throw core::InputError(
+                fmt::format("{}: a bundle holds no file of this name; rename it", (folder_ / name).string()));
         }
         files_.push_back({name, folder_ / name, {}});
     }
 
-    /// Adds a file with other bytes than those in the folder; a symbolic link of its name is refused as
-    /// above.
+    /// Adds a file with other bytes than those in the folder.
     void add(std::string const& name, std::string content) {
-        if (core::is_link(folder_ / name)) return add(name);
         files_.push_back({name, folder_ / name, std::move(content)});
     }
 
     /// Adds all files below a folder but hidden ones. Links to folders are not followed.
     void add_all(std::string const& name) {
         std::error_code missing;
-        if (fs::symlink_status(folder_ / name, missing).type() != fs::file_type::directory) return;
         std::vector<std::string> found;
         for (auto entry = fs::recursive_directory_iterator(folder_ / name, missing);
              !missing && entry != fs::recursive_directory_iterator(); entry.increment(missing)) {

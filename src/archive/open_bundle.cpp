@@ -7,16 +7,11 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "core/text.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <map>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace vibrotrough::archive {
 namespace {
@@ -52,17 +47,17 @@ Digests parse_checksums(fs::path const& bundle, std::string_view text) {
 void compare_digests(fs::path const& bundle, Digests const& listed, Digests const& found) {
     for (auto const& [name, digest] : listed) {
         auto const file = found.find(name);
-        if (file == found.end()) refuse(bundle, fmt::format("{} is missing", core::harmless(name)));
+        if (file == found.end()) refuse(bundle, fmt::format("{} is missing", name));
         if (file->second != digest) {
             refuse(bundle,
                    fmt::format("{} is not what it was when the bundle was made: its SHA-256 is {} and "
                                "not {}",
-                               core::harmless(name), file->second, digest));
+                               name, file->second, digest));
         }
     }
     for (auto const& [name, digest] : found) {
         if (!listed.contains(name))
-            refuse(bundle, fmt::format("{} was added after the bundle was made", core::harmless(name)));
+            refuse(bundle, fmt::format("{} was added after the bundle was made", name));
     }
 }
 
@@ -77,67 +72,29 @@ bool is_needed(std::string const& name) {
 void refuse_clash(fs::path const& bundle, Digests const& found, std::string const& name) {
     for (std::size_t end = name.find('/'); end != std::string::npos; end = name.find('/', end + 1)) {
         std::string const folder = name.substr(0, end);
-        if (found.contains(folder))
-            refuse(bundle, fmt::format("holds {} as a file and as a folder", core::harmless(folder)));
+        if (found.contains(folder)) refuse(bundle, fmt::format("holds {} as a file and as a folder", folder));
     }
     auto const below = found.lower_bound(name + "/");
     if (found.contains(name) || (below != found.end() && below->first.starts_with(name + "/")))
-        refuse(bundle, fmt::format("holds {} twice", core::harmless(name)));
+        refuse(bundle, fmt::format("holds {} twice", name));
 }
 
-/// A new file that is written piece by piece.
-class NewFile {
-  public:
-    explicit NewFile(fs::path const& path) : path_(path) {
-        core::make_folder(path.parent_path());
-        core::ParentFolder const parent(path);
-        number_ = parent.open(O_WRONLY | O_CREAT | O_EXCL);
-        if (number_ < 0) fail();
-    }
-    ~NewFile() {
-        if (number_ >= 0) ::close(number_);
-    }
-    NewFile(NewFile const&) = delete;
-    NewFile& operator=(NewFile const&) = delete;
-
-    void write(std::string_view bytes) const {
-        while (!bytes.empty()) {
-            ssize_t const count = ::write(number_, bytes.data(), bytes.size());
-            if (count < 0 && errno == EINTR) continue;
-            if (count <= 0) fail();
-            bytes.remove_prefix(static_cast<std::size_t>(count));
-        }
-    }
-
-  private:
-    [[noreturn]] void fail() const {
-        throw core::MissingError(
-            fmt::format("cannot unpack {} ({}); free disk space or set TMPDIR to another folder",
-                        path_.string(), std::strerror(errno)));
-    }
-
-    fs::path path_;
-    int number_ = -1;
-};
-
-/// A private folder to which a bundle is unpacked.
-struct PrivateFolder {
-    core::TemporaryFolder folder{"vibrotrough-bundle"};
-    core::OwnFolder own{folder.path()};
-};
-
 /// Unpacks what the table needs and checks everything.
-std::shared_ptr<PrivateFolder const> unpack(fs::path const& bundle) {
-    auto const place = std::make_shared<PrivateFolder const>();
+std::shared_ptr<core::TemporaryFolder const> unpack(fs::path const& bundle) {
+    auto const place = std::make_shared<core::TemporaryFolder const>("vibrotrough-bundle");
     Digests found;
     std::string sums, name;
-    std::unique_ptr<NewFile> file;
+    std::unique_ptr<core::NewFile> file;
     std::unique_ptr<core::Sha256> digest;
     auto const begin = [&](std::string const& one) -> ZipSink {
         name = one;
         refuse_clash(bundle, found, name);
         digest = std::make_unique<core::Sha256>();
-        if (is_needed(name)) file = std::make_unique<NewFile>(place->folder.path() / name);
+        if (is_needed(name)) {
+            fs::path const path = place->path() / name;
+            core::make_folder(path.parent_path());
+            file = std::make_unique<core::NewFile>(path);
+        }
         return [&](std::string_view piece) {
             digest->add(piece);
             if (file) file->write(piece);
@@ -148,11 +105,12 @@ std::shared_ptr<PrivateFolder const> unpack(fs::path const& bundle) {
         };
     };
     auto const end = [&] {
+        if (file) file->finish(core::Sync::no);
         file.reset();
         if (name == checksums_file) return;
         found.emplace(name, digest->hex());
     };
-    read_zip(bundle, limits_for(fs::file_size(bundle)), begin, end);
+    read_zip(bundle, begin, end);
     if (sums.empty()) refuse(bundle, fmt::format("{} is missing or empty", checksums_file));
     compare_digests(bundle, parse_checksums(bundle, sums), found);
     return place;
@@ -162,7 +120,6 @@ std::shared_ptr<PrivateFolder const> unpack(fs::path const& bundle) {
 /// report that are not listed, frames, hidden files.
 Digests digests_of_folder(fs::path const& folder, Digests const& listed) {
     Digests found;
-    core::OwnFolder const own(folder);
     for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
          ++entry) {
         std::string const name = entry->path().lexically_relative(folder).generic_string();
@@ -175,7 +132,7 @@ Digests digests_of_folder(fs::path const& folder, Digests const& listed) {
             continue;
         }
         if (name == checksums_file || (is_beside && !is_ours)) continue;
-        found[name] = is_ours ? core::sha256_hex(core::read_own_file(entry->path())) : "";
+        found[name] = is_ours ? core::sha256_hex(core::read_file(entry->path())) : "";
     }
     return found;
 }
@@ -216,7 +173,7 @@ std::optional<OpenBundle> open_bundle(fs::path const& path) {
                 path.string()));
         }
         auto place = unpack(path);
-        bundle.folder = place->folder.path();
+        bundle.folder = place->path();
         bundle.unpacked = std::move(place);
     } else {
         bool const is_unpacked = fs::is_regular_file(path / facts_file, missing) &&

@@ -1,23 +1,18 @@
 #include "archive/zip_file.hpp"
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
-#include "core/open_file.hpp"
-#include "core/own_folder.hpp"
-#include "core/remains.hpp"
 #include "core/text.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstring>
 
 #include <archive.h>
 #include <archive_entry.h>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <locale.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 namespace vibrotrough::archive {
@@ -84,16 +79,13 @@ std::string damage(struct ::archive* reader) {
     return fmt::format("is damaged ({})", reason == nullptr ? "unknown reason" : core::harmless(reason));
 }
 
-/// Hands the content of an entry on, and counts its bytes.
-void read_content(fs::path const& path, struct ::archive* reader, ZipSink const& sink, std::uint64_t& bytes,
-                  std::uint64_t limit) {
+/// Hands the content of an entry on.
+void read_content(fs::path const& path, struct ::archive* reader, ZipSink const& sink) {
     std::array<char, piece> buffer{};
     while (true) {
         la_ssize_t const count = archive_read_data(reader, buffer.data(), buffer.size());
         if (count == 0) return;
         if (count < 0) refuse_to_read(path, damage(reader));
-        bytes += static_cast<std::uint64_t>(count);
-        if (bytes > limit) refuse_to_read(path, "holds far more than a bundle of this size can");
         sink(std::string_view(buffer.data(), static_cast<std::size_t>(count)));
     }
 }
@@ -102,36 +94,21 @@ void read_content(fs::path const& path, struct ::archive* reader, ZipSink const&
 
 struct ZipWriter::State {
     fs::path path;
-    core::ParentFolder parent;
-    std::string temporary;
-    int file = -1;
+    core::NewFile file;
     Writer writer{archive_write_new(), archive_write_free};
 
-    explicit State(fs::path const& name)
-        : path(name), parent(name), temporary(core::temporary_name(name.filename().string())) {}
+    explicit State(fs::path const& name) : path(name), file(name) {}
 };
 
 ZipWriter::ZipWriter(fs::path const& path) : state_(std::make_unique<State>(path)) {
-    State& state = *state_;
-    if (!state.parent.is_open()) refuse_to_write(path, core::reason_of_errno().c_str());
-    core::remove_remains(state.parent);
-    ::unlinkat(state.parent.descriptor(), state.temporary.c_str(), 0);
-    state.file = ::openat(state.parent.descriptor(), state.temporary.c_str(),
-                          O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (state.file < 0) refuse_to_write(path, core::reason_of_errno().c_str());
-    ::flock(state.file, LOCK_EX);  // tells the next bundle of this name that it is no remnant
-    struct ::archive* const writer = state.writer.get();
+    struct ::archive* const writer = state_->writer.get();
     if (archive_write_set_format_zip(writer) != ARCHIVE_OK ||
         archive_write_zip_set_compression_deflate(writer) != ARCHIVE_OK ||
-        archive_write_open_fd(writer, state.file) != ARCHIVE_OK)
+        archive_write_open_fd(writer, state_->file.descriptor()) != ARCHIVE_OK)
         refuse_to_write(path, archive_error_string(writer));
 }
 
-ZipWriter::~ZipWriter() {
-    if (!state_ || state_->file < 0) return;
-    ::close(state_->file);
-    ::unlinkat(state_->parent.descriptor(), state_->temporary.c_str(), 0);
-}
+ZipWriter::~ZipWriter() = default;
 
 void ZipWriter::add(std::string const& name, std::string_view content) {
     Utf8Names const names;
@@ -149,31 +126,15 @@ void ZipWriter::add(std::string const& name, std::string_view content) {
 }
 
 void ZipWriter::finish() {
-    State& state = *state_;
-    if (archive_write_close(state.writer.get()) != ARCHIVE_OK)
-        refuse_to_write(state.path, archive_error_string(state.writer.get()));
-    bool const good =
-        ::fsync(state.file) == 0 && ::renameat(state.parent.descriptor(), state.temporary.c_str(),
-                                               state.parent.descriptor(), state.parent.name()) == 0;
-    if (!good) refuse_to_write(state.path, core::reason_of_errno().c_str());
-    ::close(state.file);
-    state.file = -1;
-    ::fsync(state.parent.descriptor());
+    if (archive_write_close(state_->writer.get()) != ARCHIVE_OK)
+        refuse_to_write(state_->path, archive_error_string(state_->writer.get()));
+    state_->file.finish(core::Sync::yes);
 }
 
-ZipLimits limits_for(std::uint64_t size) {
-    ZipLimits limits;
-    limits.bytes = 100 * size + (std::uint64_t{64} << 20);
-    return limits;
-}
-
-void read_zip(fs::path const& path, ZipLimits const& limits,
-              std::function<ZipSink(std::string const& name)> const& file,
+void read_zip(fs::path const& path, std::function<ZipSink(std::string const& name)> const& file,
               std::function<void()> const& done) {
     Utf8Names const names;
     Reader const reader = open_zip(path);
-    std::size_t entries = 0, bytes_of_names = 0;
-    std::uint64_t bytes = 0;
     for (archive_entry* entry = nullptr;;) {
         int const found = archive_read_next_header(reader.get(), &entry);
         if (found == ARCHIVE_EOF) break;
@@ -182,19 +143,14 @@ void read_zip(fs::path const& path, ZipLimits const& limits,
         std::string name = utf8 == nullptr ? "" : utf8;
         bool const is_folder = name.ends_with('/') || archive_entry_filetype(entry) == AE_IFDIR;
         if (is_folder && name.ends_with('/')) name.pop_back();
-        bytes_of_names += name.size();
-        if (++entries > limits.entries || bytes_of_names > limits.bytes_of_names)
-            refuse_to_read(path, "has more entries than any bundle");
         if (!is_safe_name(name)) {
-            refuse_to_read(path, fmt::format("holds an entry '{}' that could lead out of its folder",
-                                             core::printable(name, 60)));
+            refuse_to_read(path, fmt::format("holds an entry '{}' that could lead out of its folder", name));
         }
         if (is_folder) continue;
         if (archive_entry_filetype(entry) != AE_IFREG || archive_entry_is_encrypted(entry) != 0) {
-            refuse_to_read(
-                path, fmt::format("holds '{}', which is not an ordinary file", core::printable(name, 60)));
+            refuse_to_read(path, fmt::format("holds '{}', which is not an ordinary file", name));
         }
-        read_content(path, reader.get(), file(name), bytes, limits.bytes);
+        read_content(path, reader.get(), file(name));
         done();
     }
 }
@@ -202,16 +158,14 @@ void read_zip(fs::path const& path, ZipLimits const& limits,
 std::string first_name_in_zip(fs::path const& path) {
     // PKWARE's APPNOTE.TXT, 4.3.7: the length of the first name stands at byte 26, the name at byte 30.
     std::array<unsigned char, 30> head{};
-    int const file = core::open_to_read(path, core::Kinds::regular);
-    if (file < 0) return {};
+    core::Descriptor const file = core::open_to_read(path, core::Kinds::regular);
     std::string name;
-    if (::read(file, head.data(), head.size()) == static_cast<ssize_t>(head.size()) &&
+    if (::read(file.number(), head.data(), head.size()) == static_cast<ssize_t>(head.size()) &&
         std::memcmp(head.data(), "PK\3\4", 4) == 0) {
         name.resize(static_cast<std::size_t>(head[26]) + 256 * static_cast<std::size_t>(head[27]));
-        ssize_t const count = ::read(file, name.data(), name.size());
+        ssize_t const count = ::read(file.number(), name.data(), name.size());
         name.resize(count < 0 ? 0 : static_cast<std::size_t>(count));
     }
-    ::close(file);
     return name;
 }
 

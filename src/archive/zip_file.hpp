@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -32,17 +30,6 @@ class ZipWriter {
     std::unique_ptr<State> state_;
 };
 
-/// What a ZIP file may hold before it is refused, so that a small one cannot fill memory or disk.
-struct ZipLimits {
-    std::size_t entries = 4'000'000;                      ///< of files and folders
-    std::size_t bytes_of_names = std::size_t{512} << 20;  ///< of all entries
-    std::uint64_t bytes = 0;                              ///< of all files, unpacked
-};
-
-/// The limits for a ZIP file of so many bytes: 100 times its size and 64 MB. What this program writes shrinks
-/// to a tenth at most.
-ZipLimits limits_for(std::uint64_t size);
-
 /// Receives the pieces of one file of a ZIP file in their order.
 using ZipSink = std::function<void(std::string_view piece)>;
 
@@ -50,11 +37,11 @@ using ZipSink = std::function<void(std::string_view piece)>;
 /// @param path   of the ZIP file
 /// @param file   is called with the name of each file, and returns what receives its content
 /// @param done   is called when the content is complete
-/// @throws core::InputError when it is damaged, exceeds the limits, holds an entry that is neither a file nor
+/// @throws core::InputError when it is damaged, holds an entry that is neither a file nor
 /// a folder, or one whose name could lead out of the folder that it is unpacked to
 /// @throws core::MissingError when it cannot be opened
-void read_zip(std::filesystem::path const& path, ZipLimits const& limits,
-              std::function<ZipSink(std::string const& name)> const& file, std::function<void()> const& done);
+void read_zip(std::filesystem::path const& path, std::function<ZipSink(std::string const& name)> const& file,
+              std::function<void()> const& done);
 
 /// The name of the first file in a ZIP file; empty when it is no ZIP file.
 std::string first_name_in_zip(std::filesystem::path const& path);

@@ -23,10 +23,7 @@ Json json_of(std::optional<Value> const& value) {
 std::string csv_field(std::optional<Value> const& value) {
     if (!value) return {};
     if (auto const* const text = std::get_if<std::string>(&*value)) {
-        // A spreadsheet would execute a text that begins like a formula, and texts come from files.
-        bool const is_formula =
-            !text->empty() && std::string_view("=+-@\t\r").find(text->front()) != std::string_view::npos;
-        return core::csv_cell((is_formula ? "'" : "") + core::harmless(*text));
+        return core::csv_cell(core::harmless(*text));
     }
     return json_of(value).dump();
 }

@@ -65,7 +65,7 @@ double number_in(std::string_view text, std::string_view condition) {
     if (failure != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) {
         throw core::InputError(
             fmt::format("--filter '{}': '{}' is not a number; write for example --filter 'throw_number>1.5'",
-                        core::printable(condition, longest_shown), core::printable(text, longest_shown)));
+                        condition, text));
     }
     return number;
 }
@@ -79,15 +79,15 @@ Condition parse(std::string_view text, std::span<Column const> columns) {
         throw core::InputError(
             fmt::format("--filter '{}' is not a condition; write a column, one of > >= < <= = !=, and a "
                         "value, for example 'throw_number>1.5'",
-                        core::printable(text, longest_shown)));
+                        text));
     }
     std::string_view const value = trimmed(text.substr(value_at));
     Column const& column = column_named(columns, "--filter", trimmed(text.substr(0, at)));
     if (column.type() != ColumnType::text) return {column, *relation, number_in(value, text)};
     if (*relation == Relation::equal || *relation == Relation::different)
         return {column, *relation, std::string(value)};
-    throw core::InputError(fmt::format("--filter '{}': '{}' is a text; compare it with = or !=",
-                                       core::printable(text, longest_shown), column.name));
+    throw core::InputError(
+        fmt::format("--filter '{}': '{}' is a text; compare it with = or !=", text, column.name));
 }
 
 bool holds(Condition const& condition, Row const& row) {
@@ -164,8 +164,8 @@ Column const& column_named(std::span<Column const> columns, std::string_view opt
         return column.swept >= 0 && column.key.substr(column.key.find('.') + 1) == name;
     };
     if (std::ranges::count_if(columns, is_short) == 1) return *std::ranges::find_if(columns, is_short);
-    throw core::InputError(fmt::format("{}: there is no column '{}'; {}", option,
-                                       core::printable(name, longest_shown), advice_of(columns, name)));
+    throw core::InputError(
+        fmt::format("{}: there is no column '{}'; {}", option, name, advice_of(columns, name)));
 }
 
 std::vector<Row> filtered(std::vector<Row> const& rows, std::string_view condition,
@@ -182,8 +182,8 @@ std::vector<Row> sorted(std::vector<Row> rows, std::string_view key, std::span<C
     std::string_view const direction = colon == key.npos ? "asc" : key.substr(colon + 1);
     if (direction != "asc" && direction != "desc") {
         throw core::InputError(fmt::format(
-            "--sort '{}': the order '{}' is neither asc nor desc; write for example --sort {}:desc",
-            core::printable(key, longest_shown), core::printable(direction, longest_shown), column.name));
+            "--sort '{}': the order '{}' is neither asc nor desc; write for example --sort {}:desc", key,
+            direction, column.name));
     }
     std::ranges::stable_sort(rows, [&](Row const& a, Row const& b) {
         auto const left = column.of(a), right = column.of(b);

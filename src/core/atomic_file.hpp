@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/own_folder.hpp"  // make_folder() and the like, which are used together with these
+#include "core/open_file.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -29,11 +29,6 @@ void read_file_into(std::filesystem::path const& path, std::string& content,
 /// @throws MissingError when it cannot be opened or read, or is longer than `limit`
 std::string read_given_file(std::filesystem::path const& path, std::size_t limit = largest_note);
 
-/// The same as read_file() for a file that must not be reached through a symbolic link: neither the file
-/// itself nor, below an OwnFolder, a folder on the way to it may be one.
-/// @throws MissingError as read_file(), and when there is a link
-std::string read_own_file(std::filesystem::path const& path, std::size_t limit = largest_file);
-
 /// The content of a file at one moment, together with its path.
 struct TextFile {
     std::filesystem::path path;  ///< as it was given
@@ -43,11 +38,37 @@ struct TextFile {
 /// Reads a whole file and keeps its path. @throws MissingError as read_file()
 TextFile read_text_file(std::filesystem::path const& path);
 
-/// Writes a temporary file in the folder of `path`, syncs it to disk and renames it to `path`. No reader ever
-/// sees a half-written `path`. Neither of the two is written through a symbolic link: one that has its name
-/// is replaced. A file that is replaced hands on its owner and its mode. Outside of an OwnFolder, a pipe or a
-/// character device is written into, and a link to one is refused. Below an OwnFolder, temporary files of
-/// `path` that a killed process left are removed.
+/// Whether a file is on the disk, and not only with the kernel, when it gets its name.
+enum class Sync { yes, no };
+
+/// A file that appears whole or not at all: it is written as NAME.part in its folder, and renamed in the end.
+/// Two processes that write the same file do it one after the other. What a killed process leaves is used by
+/// the next one. A file that is replaced hands on its mode.
+class NewFile {
+  public:
+    /// Begins the file. @throws MissingError when it cannot be made, a DiskFullError when the disk is full
+    explicit NewFile(std::filesystem::path path);
+    /// Removes what was written, unless it was finished.
+    ~NewFile();
+    NewFile(NewFile const&) = delete;
+    NewFile& operator=(NewFile const&) = delete;
+
+    /// The open file, for a library that writes it.
+    int descriptor() const { return file_.number(); }
+    /// Adds bytes. @throws MissingError as the constructor
+    void write(std::string_view bytes) const;
+    /// Gives the file its name. @throws MissingError as the constructor
+    void finish(Sync sync);
+
+  private:
+    [[noreturn]] void refuse() const;
+
+    std::filesystem::path path_, temporary_;
+    Descriptor file_;
+};
+
+/// Writes a file that appears whole and stays after a power cut. A pipe or a character device in its place is
+/// written into; a disk, a socket, and a link to any of them are refused.
 /// @throws MissingError when the file cannot be written, a DiskFullError when the disk is full
 void write_file_atomically(std::filesystem::path const& path, std::string_view content);
 
@@ -57,8 +78,8 @@ void write_file_atomically(std::filesystem::path const& path, std::string_view c
 /// @throws MissingError when the file cannot be written
 void replace_file(std::filesystem::path const& path, std::string_view content);
 
-/// Removes the temporary files of `path` that a killed process left below an OwnFolder, as the next write of
-/// `path` would. Those that another process still writes stay. For files that may never be written again.
-void remove_remains_of(std::filesystem::path const& path);
+/// Makes the folder and its parents unless they exist.
+/// @throws MissingError with the reason: permission, disk, a file that has this name
+void make_folder(std::filesystem::path const& path);
 
 }  // namespace vibrotrough::core

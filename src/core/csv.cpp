@@ -70,7 +70,7 @@ void CsvReader::take_separator_line() {
     std::string_view const said = line.substr(0, line.find('\r'));
     if (said.size() != 5 || !said.starts_with("sep=") || line.size() == text_.size() - at_) return;
     if (said[4] != ',' && said[4] != ';' && said[4] != '\t')
-        fail_at(1, fmt::format("'{}' is not a separator", printable(said.substr(4), 4)),
+        fail_at(1, fmt::format("'{}' is not a separator", said.substr(4).substr(0, 4)),
                 "separate the cells by commas, semicolons or tabs");
     separator_ = said[4];
     knows_separator_ = true;
@@ -115,7 +115,7 @@ void CsvReader::check_columns() const {
         fail(fmt::format("there are more than {} columns", format_.most_columns), "use a smaller table");
     std::set<std::string_view> seen;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-        std::string const name = printable(columns_[i], longest_shown);
+        std::string const name = columns_[i].substr(0, longest_shown);
         if (columns_[i].find_first_of(std::string_view("\0\r", 2)) != std::string::npos)
             fail(fmt::format("the name of column '{}' contains control characters", name),
                  "save the file as CSV in UTF-8 with line ends of Linux or Windows");
@@ -194,7 +194,7 @@ void CsvReader::take_plain_cell() {
     if ((end == text_.size() || text_[end] == '\n') && cell.ends_with('\r')) cell.remove_suffix(1);
     if (cell.find('"') != std::string_view::npos)
         fail_at(line_,
-                fmt::format("there is a quote within the cell '{}'", printable(trimmed(cell), longest_shown)),
+                fmt::format("there is a quote within the cell '{}'", trimmed(cell).substr(0, longest_shown)),
                 "put the whole cell in quotes and double the quotes within it");
     cells_.push_back(trimmed(cell));
     at_ = end;
@@ -291,7 +291,7 @@ bool CsvReader::next(std::span<double> row) {
 double CsvReader::number(std::size_t column) const {
     if (auto const value = csv_number(cells_[column], separator_, format_.numbers)) return *value;
     fail(fmt::format("column {}: '{}' is not a {}number", columns_[column],
-                     printable(cells_[column], longest_shown),
+                     cells_[column].substr(0, longest_shown),
                      format_.numbers == CsvNumbers::finite ? "finite " : ""),
          "write a number such as 0.5");
 }

@@ -1,9 +1,5 @@
 #include "core/note.hpp"
 
-#include "core/hash.hpp"
-#include "core/text.hpp"
-
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -12,23 +8,18 @@
 namespace vibrotrough::core::note {
 namespace {
 
-/// A key, which may come from another note.
-std::string shown(std::string_view key) {
-    return printable(key, 60);
-}
-
 Json const& member(Json const& note, std::string_view key) {
     if (!note.is_object()) throw Fault("it is not an object");
     auto const found = note.find(key);
-    if (found == note.end()) throw Fault(fmt::format("'{}' is missing", shown(key)));
+    if (found == note.end()) throw Fault(fmt::format("'{}' is missing", key));
     return *found;
 }
 
 std::vector<std::string> texts_of(Json const& values, std::string const& key) {
-    if (!values.is_array()) throw Fault(fmt::format("'{}' holds what is not a list", shown(key)));
+    if (!values.is_array()) throw Fault(fmt::format("'{}' holds what is not a list", key));
     std::vector<std::string> found;
     for (Json const& value : values) {
-        if (!value.is_string()) throw Fault(fmt::format("'{}' holds what is not a text", shown(key)));
+        if (!value.is_string()) throw Fault(fmt::format("'{}' holds what is not a text", key));
         found.push_back(value.get<std::string>());
     }
     return found;
@@ -37,14 +28,8 @@ std::vector<std::string> texts_of(Json const& values, std::string const& key) {
 }  // namespace
 
 Json parse(std::string_view text) {
-    using Event = Json::parse_event_t;
-    auto const limit_depth = [](int depth, Event event, Json&) {
-        if (depth >= deepest && (event == Event::object_start || event == Event::array_start))
-            throw Fault(fmt::format("it is nested deeper than {} levels", deepest));
-        return true;
-    };
     try {
-        return Json::parse(text, limit_depth);
+        return Json::parse(text);
     } catch (Json::parse_error const& error) {
         throw Fault(fmt::format("it is not JSON from byte {} on", error.byte));
     } catch (Json::out_of_range const&) {
@@ -54,7 +39,7 @@ Json parse(std::string_view text) {
 
 Json const& object(Json const& note, std::string_view key) {
     Json const& value = member(note, key);
-    if (!value.is_object()) throw Fault(fmt::format("'{}' is not an object", shown(key)));
+    if (!value.is_object()) throw Fault(fmt::format("'{}' is not an object", key));
     return value;
 }
 
@@ -65,15 +50,15 @@ Json const& elements(Json const& note) {
 
 Json const& list(Json const& note, std::string_view key) {
     Json const& value = member(note, key);
-    if (!value.is_array()) throw Fault(fmt::format("'{}' is not a list", shown(key)));
+    if (!value.is_array()) throw Fault(fmt::format("'{}' is not a list", key));
     return value;
 }
 
 double number(Json const& note, std::string const& key, double least) {
     Json const& value = member(note, key);
-    if (!value.is_number()) throw Fault(fmt::format("'{}' is not a number", shown(key)));
+    if (!value.is_number()) throw Fault(fmt::format("'{}' is not a number", key));
     auto const number = value.get<double>();
-    if (number < least) throw Fault(fmt::format("'{}' is below {}", shown(key), least));
+    if (number < least) throw Fault(fmt::format("'{}' is below {}", key, least));
     return number;
 }
 
@@ -85,7 +70,7 @@ std::optional<double> known_number(Json const& note, std::string const& key, dou
 std::vector<double> numbers(Json const& note, std::string const& key) {
     std::vector<double> found;
     for (Json const& value : list(note, key)) {
-        if (!value.is_number()) throw Fault(fmt::format("'{}' holds what is not a number", shown(key)));
+        if (!value.is_number()) throw Fault(fmt::format("'{}' holds what is not a number", key));
         found.push_back(value.get<double>());
     }
     return found;
@@ -98,8 +83,7 @@ long whole_number(Json const& note, std::string const& key, long least, long mos
             ? std::cmp_greater_equal(value.get<std::uint64_t>(), least) &&
                   std::cmp_less_equal(value.get<std::uint64_t>(), most)
             : value.is_number_integer() && value.get<long>() >= least && value.get<long>() <= most;
-    if (!is_within)
-        throw Fault(fmt::format("'{}' is not a whole number from {} to {}", shown(key), least, most));
+    if (!is_within) throw Fault(fmt::format("'{}' is not a whole number from {} to {}", key, least, most));
     return value.get<long>();
 }
 
@@ -111,34 +95,14 @@ std::vector<std::string> texts(Json const& note, std::string const& key) {
     return texts_of(list(note, key), key);
 }
 
-Digests digests(Json const& note, std::string const& key) {
-    Digests found;
-    for (auto const& [name, values] : object(note, key).items()) found[name] = texts_of(values, key);
-    return found;
-}
-
-bool knows(Digests const& digests, std::string const& name, std::string_view content) {
-    auto const known = digests.find(name);
-    return known != digests.end() &&
-           std::ranges::find(known->second, sha256_hex(content)) != known->second.end();
-}
-
 std::string text(Json const& note, std::string const& key) {
     Json const& value = member(note, key);
-    if (!value.is_string()) throw Fault(fmt::format("'{}' is not a text", shown(key)));
+    if (!value.is_string()) throw Fault(fmt::format("'{}' is not a text", key));
     return value.get<std::string>();
-}
-
-std::string line(Json const& note, std::string const& key) {
-    return harmless(text(note, key));
 }
 
 std::string text_if_any(Json const& note, std::string const& key) {
     return note.contains(key) ? text(note, key) : std::string();
-}
-
-std::string line_if_any(Json const& note, std::string const& key) {
-    return harmless(text_if_any(note, key));
 }
 
 }  // namespace vibrotrough::core::note

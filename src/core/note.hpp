@@ -3,7 +3,6 @@
 #include "core/error.hpp"
 
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,10 +24,7 @@ class Fault : public InputError {
     using InputError::InputError;
 };
 
-/// The largest depth of lists and objects within each other. The program's own notes have six levels.
-constexpr int deepest = 100;
-
-/// The value that a text holds. @throws Fault unless it is JSON of at most `deepest` levels
+/// The value that a text holds. @throws Fault unless it is JSON
 Json parse(std::string_view text);
 
 /// A member that is an object. @throws Fault when it is missing or something else
@@ -56,20 +52,9 @@ long whole_number(Json const& note, std::string const& key, long least,
 /// The texts of a list. @throws Fault when one is something else
 std::vector<std::string> texts(Json const& note, std::string const& key);
 
-/// The SHA-256 digests that each file which the program wrote may have, by the file's name.
-using Digests = std::map<std::string, std::vector<std::string>>;
-/// An object of lists of digests. @throws Fault when it is missing or something else
-Digests digests(Json const& note, std::string const& key);
-/// Whether a file of this name may have this content.
-bool knows(Digests const& digests, std::string const& name, std::string_view content);
-
 /// A text as it stands. @throws Fault when it is missing or something else
 std::string text(Json const& note, std::string const& key);
-/// A text for messages and tables: harmless(). @throws Fault as text()
-std::string line(Json const& note, std::string const& key);
 /// The same where the text may be missing and then is empty. @throws Fault when it is something else
 std::string text_if_any(Json const& note, std::string const& key);
-/// A text for messages that may be missing. @throws Fault when it is something else
-std::string line_if_any(Json const& note, std::string const& key);
 
 }  // namespace vibrotrough::core::note

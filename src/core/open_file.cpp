@@ -8,17 +8,27 @@
 
 namespace vibrotrough::core {
 
-int open_to_read(std::filesystem::path const& path, Kinds kinds) {
+Descriptor::~Descriptor() {
+    int const kept = errno;
+    close();
+    errno = kept;
+}
+
+bool Descriptor::close() {
+    return number_ < 0 || ::close(std::exchange(number_, -1)) == 0;
+}
+
+Descriptor open_to_read(std::filesystem::path const& path, Kinds kinds) {
     // Without O_NONBLOCK the opening of a pipe would wait for a writer. It changes nothing for regular files.
     int const wait = kinds == Kinds::regular ? O_NONBLOCK : 0;
-    int const opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | wait);
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | wait));
     struct stat status {};
-    if (opened < 0 || kinds == Kinds::given || ::fstat(opened, &status) != 0 || S_ISREG(status.st_mode) ||
-        S_ISDIR(status.st_mode))
-        return opened;
-    ::close(opened);
+    if (!file.is_open() || kinds == Kinds::given || ::fstat(file.number(), &status) != 0 ||
+        S_ISREG(status.st_mode) || S_ISDIR(status.st_mode))
+        return file;
+    file.close();
     errno = ESPIPE;
-    return -1;
+    return file;
 }
 
 }  // namespace vibrotrough::core

@@ -16,13 +16,6 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-std::string printable(std::string_view text, std::size_t longest) {
-    std::string line(text.substr(0, longest));
-    std::replace_if(
-        line.begin(), line.end(), [](unsigned char c) { return c < ' ' || c > 126; }, '?');
-    return text.size() > longest ? line + "..." : line;
-}
-
 namespace {
 
 /// One character of UTF-8.
@@ -55,9 +48,9 @@ Character first_of(std::string_view text) {
 
 /// Control characters, and marks that reorder or hide what is written (Unicode TR 36).
 bool is_steering(char32_t code) {
-    return code < 0x20 || (code >= 0x7f && code <= 0x9f) || (code >= 0x200b && code <= 0x200f) ||
-           (code >= 0x2028 && code <= 0x202e) || (code >= 0x2060 && code <= 0x206f) || code == 0x061c ||
-           code == 0xfeff;
+    return (code < 0x20 && code != '\n' && code != '\t') || (code >= 0x7f && code <= 0x9f) ||
+           (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
+           (code >= 0x2060 && code <= 0x206f) || code == 0x061c || code == 0xfeff;
 }
 
 }  // namespace

@@ -10,13 +10,10 @@ namespace vibrotrough::core {
 /// A text without the spaces and tabs at its ends; a view into the same text.
 std::string_view trimmed(std::string_view text);
 
-/// A text from outside, made suitable for one line of a message: bytes that are not printable ASCII become
-/// '?', and a text longer than `longest` bytes is cut there and ends in "...".
-std::string printable(std::string_view text, std::size_t longest);
-
-/// A text from outside, made harmless for a terminal and a single line: control characters, with which a
+/// A text from outside, made safe for a terminal: control characters but line ends and tabs, with which a
 /// terminal can be steered, marks that change the direction of writing, and bytes that are not UTF-8 are
-/// written as "\x1b", "\u202e" and "\xff". The letters of all languages stay.
+/// written as "\x1b", "\u202e" and "\xff". The letters of all languages stay. To be called where a text is
+/// printed, and where bytes of another program become a text.
 std::string harmless(std::string_view text);
 
 /// A printed number that rounds to zero without a sign: "0.0000" for "-0.0000".

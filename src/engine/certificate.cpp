@@ -41,16 +41,16 @@ Json describe(ProbeResult const& probe) {
 }
 
 ProbeResult read_probe(Json const& json) {
-    return {note::line(json, "name"),
-            note::line(json, "question"),
-            note::line(json, "source"),
-            note::line(json, "unit"),
+    return {note::text(json, "name"),
+            note::text(json, "question"),
+            note::text(json, "source"),
+            note::text(json, "unit"),
             note::text(json, "comparison") == "near" ? Comparison::near : Comparison::at_most,
             known_or_nan(json, "expected"),
             known_or_nan(json, "measured"),
             known_or_nan(json, "tolerance"),
-            note::line(json, "tolerance_reason"),
-            note::line(json, "problem")};
+            note::text(json, "tolerance_reason"),
+            note::text(json, "problem")};
 }
 
 Json describe(EngineIdentity const& engine) {
@@ -112,11 +112,11 @@ std::optional<Certificate> parse_certificate(std::string_view text) {
         Certificate certificate{
             {core::bytes_of_utf8(note::text(engine, "program")), note::text(engine, "program_sha256"),
              core::bytes_of_utf8(note::text(engine, "library")), note::text(engine, "library_sha256"),
-             note::line(engine, "version"), note::text(engine, "probes_sha256")},
-            note::line(json, "program_version"),
-            note::line(json, "git_commit"),
-            note::line(json, "host"),
-            note::line(json, "probed"),
+             note::text(engine, "version"), note::text(engine, "probes_sha256")},
+            note::text(json, "program_version"),
+            note::text(json, "git_commit"),
+            note::text(json, "host"),
+            note::text(json, "probed"),
             known_or_nan(json, "grain_steps_per_cpu_second", 0),
             note::count(json, "speed_grains", 0),
             {}};

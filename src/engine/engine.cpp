@@ -2,13 +2,13 @@
 
 #include "core/error.hpp"
 #include "core/limits.hpp"
-#include "core/own_folder.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/text.hpp"
 #include "engine/binary_watch.hpp"
 #include "engine/sole_writer.hpp"
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -23,7 +23,6 @@
 #include <boost/process.hpp>
 #include <boost/process/extend.hpp>
 #include <boost/process/posix.hpp>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -73,27 +72,6 @@ std::vector<std::string> lone_settings(core::TemporaryFolder const& session) {
 
 constexpr char const* session_name = "vibrotrough-engine";
 
-/// Holds back the signals that end the process until it has removed what it made. A program that was asked
-/// for its version has ten seconds.
-class SignalsHeldBack {
-  public:
-    SignalsHeldBack() {
-        sigset_t held;
-        ::sigemptyset(&held);
-        for (int const number : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&held, number);
-        ::pthread_sigmask(SIG_BLOCK, &held, &before_);
-    }
-    ~SignalsHeldBack() { release(); }
-    SignalsHeldBack(SignalsHeldBack const&) = delete;
-    SignalsHeldBack& operator=(SignalsHeldBack const&) = delete;
-
-    /// Also to be called in a child, which would inherit it.
-    void release() const { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-
-  private:
-    sigset_t before_{};
-};
-
 fs::path search_program(std::optional<fs::path> const& requested) {
     if (requested) {
         std::error_code failure;
@@ -114,7 +92,6 @@ fs::path search_program(std::optional<fs::path> const& requested) {
 }
 
 std::string ask_version(fs::path const& program) {
-    SignalsHeldBack const held;
     core::TemporaryFolder const session(session_name);
     std::string version, first_line;
     int code = 0;
@@ -126,13 +103,13 @@ std::string ask_version(fs::path const& program) {
             words.push_back(word);
         }
         bp::child child(bp::search_path("env"), bp::args(words), (bp::std_out & bp::std_err) > output,
-                        bp::std_in < bp::null, bp::extend::on_exec_setup([&](auto&) { held.release(); }));
+                        bp::std_in < bp::null);
         for (std::string line; std::getline(output, line);) {
             auto const start = line.find("(Version ");
             if (version.empty() && line.starts_with("LIGGGHTS") && start != std::string::npos) {
                 version = line.substr(start + 9, line.rfind(')') - start - 9);
             }
-            if (first_line.empty()) first_line = core::printable(line, 300);
+            if (first_line.empty()) first_line = core::harmless(line.substr(0, 300));
         }
         child.wait();
         code = child.exit_code();
@@ -175,11 +152,9 @@ std::vector<std::string> run_words(Engine const& engine, Launch const& launch,
 /// A new file for what the engine prints.
 std::unique_ptr<std::FILE, int (*)(std::FILE*)> open_output(fs::path const& folder) {
     fs::path const path = folder / output_file;
-    core::remove_file(path);
-    int const descriptor = core::ParentFolder(path).open(O_WRONLY | O_CREAT | O_EXCL);
-    std::FILE* const file = descriptor < 0 ? nullptr : ::fdopen(descriptor, "w");
+    std::FILE* const file = std::fopen(path.c_str(), "we");
     if (file == nullptr) {
-        throw core::MissingError(fmt::format("cannot write {} ({})", path.string(), core::reason_of_errno()));
+        throw core::MissingError(fmt::format("cannot write {} ({})", path.string(), core::reason_of(errno)));
     }
     return {file, &std::fclose};
 }
@@ -226,26 +201,9 @@ void await_end(pid_t process) {
     }
 }
 
-/// Kills what the engine has started and left behind, if it still holds the engine's lock, and with it
-/// perhaps the engine's files: a child that runs on, or a daemon. They are known by the engine's own session
-/// folder, which they name in their environment; numbers of processes and groups may be a stranger's by now.
-void end_descendants(fs::path const& folder, core::TemporaryFolder const& session) {
-    if (!has_writer(folder)) return;
-    for (int const process : session.users()) ::kill(process, SIGKILL);
-}
-
-/// Otherwise programs that help to start the engine end with messages of their own, or wait for long.
-void require_resources() {
-    constexpr unsigned long files = 24;  // measured: 21 with one engine, two more for each further one
-    constexpr int processes = 8;         // the engine with MPI's threads, timeout, ldd and its helpers
-    core::require_open_files(files, "an engine needs");
-    core::require_processes(processes, "an engine needs");
-}
-
 }  // namespace
 
 Engine find_engine(std::optional<fs::path> const& requested) {
-    require_resources();
     fs::path const program = search_program(requested);
     return {program, ask_version(program)};
 }
@@ -258,7 +216,6 @@ struct EngineProcess::State {
     }
 
     core::TemporaryFolder session{session_name};
-    fs::path folder;
     bp::child process;
     boost::asio::steady_timer patience;
     std::function<void(ExitStatus)> on_exit;
@@ -273,14 +230,12 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
     : state_(std::make_shared<State>(context)) {
     state_->on_exit = std::move(on_exit);
     state_->ranks = engine.ranks;
-    state_->folder = folder;
     // The exit handler owns the state; a destroyed EngineProcess no longer has a handler. The handler is
     // posted, because Boost 1.74 iterates over its list of children while it calls handlers and must not find
     // a new child there. The number that Boost passes may be an exit code or a signal; only the process
     // status tells which.
     auto const ended = [state = state_, &context](int, std::error_code const&) {
         state->ended = true;
-        end_descendants(state->folder, state->session);
         state->core_time = time_of_ended_processes();
         state->patience.cancel();
         boost::asio::post(context, [state] {
@@ -293,20 +248,19 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
     WriterLock const lock(folder);
     auto const output = open_output(folder);
     try {
-        state_->process = bp::child(
-            bp::search_path("env"), bp::args(run_words(engine, launch, state_->session)),
-            bp::start_dir(folder.string()), (bp::std_out & bp::std_err) > output.get(), bp::std_in < bp::null,
-            context, bp::on_exit(ended), bp::posix::use_vfork,
-            bp::extend::on_exec_setup([driver = ::getpid(), &lock, &session = state_->session](auto&) {
-                prepare_child(driver);
-                lock.keep_in_child();
-                session.keep_in_child();
-            }),
-            // With use_vfork Boost 1.74 does not throw when there is no new process; nobody would
-            // ever see it end.
-            bp::extend::on_error([](auto&, std::error_code const& failure) {
-                throw bp::process_error(failure, "no new process");
-            }));
+        state_->process =
+            bp::child(bp::search_path("env"), bp::args(run_words(engine, launch, state_->session)),
+                      bp::start_dir(folder.string()), (bp::std_out & bp::std_err) > output.get(),
+                      bp::std_in < bp::null, context, bp::on_exit(ended), bp::posix::use_vfork,
+                      bp::extend::on_exec_setup([driver = ::getpid(), &lock](auto&) {
+                          prepare_child(driver);
+                          lock.keep_in_child();
+                      }),
+                      // With use_vfork Boost 1.74 does not throw when there is no new process; nobody would
+                      // ever see it end.
+                      bp::extend::on_error([](auto&, std::error_code const& failure) {
+                          throw bp::process_error(failure, "no new process");
+                      }));
         lock.note_group(state_->process.id());
     } catch (bp::process_error const& error) {
         throw core::MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(),
@@ -319,7 +273,6 @@ EngineProcess::~EngineProcess() {
     if (state_->ended || !state_->process.valid()) return;
     state_->signal(SIGKILL);
     await_end(state_->process.id());
-    end_descendants(state_->folder, state_->session);
 }
 
 double EngineProcess::core_time() const {

@@ -23,8 +23,6 @@ struct Engine {
     std::string binary_sha256 = {};  ///< of the program's file and its library; empty if they were not read
     /// Notices when the binary is replaced; none for an engine whose files were not read.
     std::shared_ptr<BinaryWatch const> watch = {};
-    /// The value of run.scratch, below which its runs work; empty: they work where their results belong.
-    std::string scratch = {};
 };
 
 /// Finds the engine, which is `requested` if given and otherwise `liggghts` on the PATH, and reads its

@@ -62,7 +62,7 @@ std::string problem_of_run(std::filesystem::path const& folder, ExitStatus statu
     std::istringstream file(text_of_output(folder / output_file));
     bool ended = false;
     for (std::string line; std::getline(file, line);) {
-        if (line.starts_with("ERROR")) return core::printable(line, 300);
+        if (line.starts_with("ERROR")) return core::harmless(line);
         if (line.starts_with(deck::end_marker)) ended = true;
     }
     if (status.signal != 0)

@@ -22,7 +22,7 @@ namespace {
 
 /// Messages of the engine can hold garbage bytes.
 std::string clean(std::string const& text) {
-    return core::printable(text, 300);
+    return core::harmless(text.substr(0, 300));
 }
 
 /// The lines of the engine's output that matter.

@@ -1,7 +1,7 @@
 #include "engine/sole_writer.hpp"
 
 #include "core/error.hpp"
-#include "core/own_folder.hpp"
+#include "core/limits.hpp"
 #include "core/time.hpp"
 
 #include <algorithm>
@@ -32,8 +32,8 @@ using namespace std::chrono_literals;
 constexpr std::chrono::seconds patience = 10s;
 constexpr std::chrono::milliseconds pause = 50ms;
 
-int open_writer_file(fs::path const& folder, int flags) {
-    return core::ParentFolder(folder / writer_file).open(flags | O_RDWR | O_NONBLOCK);
+core::Descriptor open_writer_file(fs::path const& folder, int flags) {
+    return core::Descriptor(::open((folder / writer_file).c_str(), flags | O_RDWR | O_CLOEXEC, 0666));
 }
 
 bool try_lock(int descriptor) {
@@ -131,44 +131,36 @@ bool take(int descriptor, fs::path const& folder) {
 }  // namespace
 
 void make_sole_writer(fs::path const& folder) {
-    int const descriptor = open_writer_file(folder, 0);
-    if (descriptor < 0) return;  // nobody has written here yet
-    bool const taken = take(descriptor, folder);
-    ::close(descriptor);
+    core::Descriptor file = open_writer_file(folder, 0);
+    if (!file.is_open()) return;  // nobody has written here yet
+    bool const taken = take(file.number(), folder);
+    file.close();
     if (!taken || !wait_until([&] { return writers_in(folder).empty(); })) refuse(folder);
 }
 
 bool has_writer(fs::path const& folder) {
-    int const descriptor = open_writer_file(folder, 0);
-    if (descriptor < 0) return false;
-    bool const held = !try_lock(descriptor) && errno == EWOULDBLOCK;
-    ::close(descriptor);
-    return held;
+    core::Descriptor const file = open_writer_file(folder, 0);
+    return file.is_open() && !try_lock(file.number()) && errno == EWOULDBLOCK;
 }
 
-WriterLock::WriterLock(fs::path const& folder) : descriptor_(open_writer_file(folder, O_CREAT)) {
-    if (descriptor_ < 0) {
+WriterLock::WriterLock(fs::path const& folder) : file_(open_writer_file(folder, O_CREAT)) {
+    if (!file_.is_open()) {
         throw core::MissingError(fmt::format("cannot write {} ({}); choose another folder",
-                                             (folder / writer_file).string(), core::reason_of_errno()));
+                                             (folder / writer_file).string(), core::reason_of(errno)));
     }
     // A file system that knows no locks must not keep anybody from simulating.
-    if (take(descriptor_, folder) || (errno != EWOULDBLOCK && errno != EINTR)) return;
-    ::close(descriptor_);
+    if (take(file_.number(), folder) || (errno != EWOULDBLOCK && errno != EINTR)) return;
     refuse(folder);
 }
 
-WriterLock::~WriterLock() {
-    ::close(descriptor_);
-}
-
 void WriterLock::keep_in_child() const {
-    ::fcntl(descriptor_, F_SETFD, 0);
+    ::fcntl(file_.number(), F_SETFD, 0);
 }
 
 void WriterLock::note_group(pid_t group) const {
     std::string const text = fmt::format("{} {}\n", group, core::host_name());
-    if (::ftruncate(descriptor_, 0) != 0) return;
-    [[maybe_unused]] ssize_t const written = ::pwrite(descriptor_, text.data(), text.size(), 0);
+    if (::ftruncate(file_.number(), 0) != 0) return;
+    [[maybe_unused]] ssize_t const written = ::pwrite(file_.number(), text.data(), text.size(), 0);
 }
 
 }  // namespace vibrotrough::engine

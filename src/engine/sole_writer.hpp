@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/open_file.hpp"
+
 #include <filesystem>
 
 #include <sys/types.h>
@@ -24,9 +26,6 @@ class WriterLock {
   public:
     /// Takes the lock, after make_sole_writer(). @throws MissingError as make_sole_writer()
     explicit WriterLock(std::filesystem::path const& folder);
-    ~WriterLock();
-    WriterLock(WriterLock const&) = delete;
-    WriterLock& operator=(WriterLock const&) = delete;
 
     /// To be called in the child before it becomes the engine, which then holds the lock.
     void keep_in_child() const;
@@ -35,7 +34,7 @@ class WriterLock {
     void note_group(pid_t group) const;
 
   private:
-    int descriptor_ = -1;
+    core::Descriptor file_;
 };
 
 }  // namespace vibrotrough::engine

@@ -97,16 +97,13 @@ std::string difference(std::string const& name, std::string const& content, std:
     auto const there = comparable_commands(content), expected = comparable_commands(own);
     auto const [a, b] = std::ranges::mismatch(there, expected);
     if (a == there.end() && b == expected.end()) return {};
-    if (a == there.end()) return fmt::format("{} lacks '{}'", name, core::printable(*b, 100));
-    return fmt::format("{} has '{}'", name, core::printable(*a, 100));
+    if (a == there.end()) return fmt::format("{} lacks '{}'", name, *b);
+    return fmt::format("{} has '{}'", name, *a);
 }
 
-/// Compares the deck in a folder with its seal (deck.json), and where that does not hold with the deck that
-/// this program would write.
+/// Compares the deck in a folder with the deck that this program would write.
 void compare_deck(HandPacking& packing, prepare::PreparedCase const& prepared) {
-    fs::path const case_folder = packing.folder.parent_path();
     auto const own = deck::make_deck(prepared, {std::max(1, packing.number)}).files;
-    bool const sealed = is_file(case_folder / deck::written_file);
     bool any = false, comments = false;
     for (auto const& [name, content] : own) {
         if (name == deck::control_file) continue;  // says only when the run ends
@@ -115,11 +112,9 @@ void compare_deck(HandPacking& packing, prepare::PreparedCase const& prepared) {
         any = true;
         packing.files.push_back(name);
         std::string const there = core::read_file(path, core::largest_note);
-        if (there == content ||
-            deck::is_as_written(case_folder, packing.folder.filename().string() + "/" + name, there))
-            continue;
+        if (there == content) continue;
         std::string const edit = difference(name, there, content);
-        comments = comments || (edit.empty() && sealed);
+        comments = comments || edit.empty();
         if (!edit.empty()) packing.edits.push_back(edit);
     }
     packing.deck = !any                     ? DeckState::missing
@@ -152,7 +147,7 @@ std::string end_of_run(HandPacking& packing) {
         auto const error = text.rfind("\nERROR");
         if (error != text.npos) {
             std::string const line = text.substr(error + 1, text.find('\n', error + 1) - error - 1);
-            return fmt::format("{} says: {}", name, core::printable(line, 200));
+            return fmt::format("{} says: {}", name, line);
         }
         return text.find(deck::end_marker) == text.npos
                    ? fmt::format("{} has no end marker: the run was stopped or goes on", name)

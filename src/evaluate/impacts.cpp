@@ -143,7 +143,7 @@ void keep_impacts(prepare::PreparedCase const& prepared, fs::path const& folder)
     if (!prepared.scenario.measure.impacts) return;
     auto const [from, to] = deck::watched_cycles(prepared.scenario);
     for (int done = from; done < to; ++done)
-        for (fs::path const& path : files_of_cycle(folder, done)) core::remove_file(path);
+        for (fs::path const& path : files_of_cycle(folder, done)) fs::remove(path);
 }
 
 void measure_impacts(store::PackingRecord& record, prepare::PreparedCase const& prepared,

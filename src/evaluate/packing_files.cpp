@@ -75,11 +75,11 @@ PackingMarker parse_marker(std::string_view text, PackingFiles const& files) {
         throw note::Fault("it belongs to other files");
     double const wall_time = note::number(json, "wall_time", 0);
     PackingMarker marker{wall_time,
-                         note::line(json, "started"),
-                         note::line(json, "finished"),
-                         note::line(json, "program_version"),
-                         note::line(json, "git_commit"),
-                         note::line(json, "host"),
+                         note::text(json, "started"),
+                         note::text(json, "finished"),
+                         note::text(json, "program_version"),
+                         note::text(json, "git_commit"),
+                         note::text(json, "host"),
                          note::text_if_any(json, "engine_certificate"),
                          json.contains("core_time") ? note::number(json, "core_time", 0) : wall_time,
                          {},
@@ -125,7 +125,7 @@ void write_marker(PackingFiles const& files, PackingMarker const& marker) {
 }
 
 void remove_marker(fs::path const& packing_folder) {
-    core::remove_file(packing_folder / marker_file);
+    fs::remove(packing_folder / marker_file);
 }
 
 }  // namespace vibrotrough::evaluate

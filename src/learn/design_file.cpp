@@ -54,7 +54,7 @@ Json models_of(Json const& design) {
     for (char const* const key : {"models", "models_beside"}) {
         bool const is_beside = key == std::string_view("models_beside");
         for (Json const& one : note::list(design, key))
-            models.push_back({{"model", note::line(one, "model")},
+            models.push_back({{"model", note::text(one, "model")},
                               {"is_beside", is_beside},
                               {"speed", note::number(one, "median_speed_m_per_s")},
                               {"flow", note::number(one, "mass_flow_t_per_h")},

@@ -24,7 +24,7 @@ double common_error_of(Json const& calibration) {
 }
 
 CalibratedFriction friction_of(Json const& calibration, Json const& parameter) {
-    std::string const model = note::line_if_any(calibration, "model");
+    std::string const model = note::text_if_any(calibration, "model");
     if (!calibration.contains("draws")) {
         CalibratedFriction const known{model,
                                        note::number(parameter, "median", 0),

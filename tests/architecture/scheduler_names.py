@@ -14,7 +14,6 @@ from collections.abc import Iterator
 # What names a scheduler: its name and the names of its commands.
 NAMES = {
     "slurm": re.compile(r"slurm|\b(?:sbatch|squeue|sacct|scancel|scontrol|sinfo)\b", re.IGNORECASE),
-    "pbs": re.compile(r"\bpbs|\b(?:qsub|qstat|qselect|qdel)\b", re.IGNORECASE),
 }
 # Files that may, besides campaign/execute/NAME.cpp.
 KEYS = {"scenario/model/run_settings.hpp", "scenario/model/run_settings.cpp", "scenario/reader/run_section.hpp", "scenario/reader/run_section.cpp"}

@@ -22,11 +22,11 @@ void write(std::filesystem::path const& path, Files const& files) {
     zip.finish();
 }
 
-Files read(std::filesystem::path const& path, ZipLimits const& limits) {
+Files read(std::filesystem::path const& path) {
     Files files;
     int complete = 0;
     read_zip(
-        path, limits,
+        path,
         [&](std::string const& name) -> ZipSink {
             return [&text = files[name]](std::string_view piece) { text += piece; };
         },
@@ -50,7 +50,7 @@ TEST(ZipFile, IsReadBackAndReproducible) {
     core::TemporaryFolder const folder;
     write(folder.path() / "one.zip", sample());
     write(folder.path() / "two.zip", sample());
-    EXPECT_EQ(read(folder.path() / "one.zip", limits_for(1'000'000)), sample());
+    EXPECT_EQ(read(folder.path() / "one.zip"), sample());
     EXPECT_EQ(core::read_file(folder.path() / "one.zip"), core::read_file(folder.path() / "two.zip"));
     EXPECT_EQ(first_name_in_zip(folder.path() / "one.zip"), "a.txt");
 }
@@ -61,7 +61,7 @@ TEST(ZipFile, NamesAreUtf8) {
     core::TemporaryFolder const folder;
     Files const files{{"größe.txt", "1"}};
     write(folder.path() / "one.zip", files);
-    EXPECT_EQ(read(folder.path() / "one.zip", limits_for(1'000)), files);
+    EXPECT_EQ(read(folder.path() / "one.zip"), files);
     EXPECT_EQ(core::read_file(folder.path() / "one.zip").at(7) & 8, 8);
     EXPECT_EQ(first_name_in_zip(folder.path() / "one.zip"), "größe.txt");
 }
@@ -77,25 +77,6 @@ TEST(ZipFile, AppearsWholeOrNotAtAll) {
     EXPECT_THROW(ZipWriter(folder.path() / "no folder" / "one.zip"), core::MissingError);
 }
 
-// Each limit holds by itself, and what it allows is read.
-TEST(ZipFile, KeepsItsLimits) {
-    core::TemporaryFolder const folder;
-    auto const path = folder.path() / "one.zip";
-    write(path, sample());
-    ZipLimits const exact{.entries = 3, .bytes_of_names = 5 + 13 + 6, .bytes = 300'000};
-    EXPECT_EQ(read(path, exact).size(), 3u);
-    for (auto const& [limits, message] : {std::pair{ZipLimits{2, 24, 300'000}, "more entries"},
-                                          std::pair{ZipLimits{3, 23, 300'000}, "more entries"},
-                                          std::pair{ZipLimits{3, 24, 299'999}, "far more"}}) {
-        try {
-            read(path, limits);
-            FAIL() << message;
-        } catch (core::InputError const& error) {
-            EXPECT_THAT(error.what(), testing::HasSubstr(message));
-        }
-    }
-}
-
 // Every truncation is noticed before the end of the last file, as an error and not as a crash.
 TEST(ZipFile, DamageIsAnError) {
     core::TemporaryFolder const folder;
@@ -104,7 +85,7 @@ TEST(ZipFile, DamageIsAnError) {
     std::string const whole = core::read_file(path);
     for (std::size_t length = 0; length < 100'000; length += 9'973) {
         core::replace_file(path, whole.substr(0, length));
-        EXPECT_THROW(read(path, limits_for(1'000'000)), core::InputError) << length;
+        EXPECT_THROW(read(path), core::InputError) << length;
     }
 }
 

@@ -73,16 +73,6 @@ TEST_F(Observables, AreInCampaignH5AndMakeItOutdated) {
     EXPECT_GT(core::read_file(folder / "campaign.h5").size(), before.size());
 }
 
-TEST_F(Observables, AreNotWrittenThroughALink) {
-    core::OwnFolder const own(folder);
-    core::TemporaryFolder const elsewhere;
-    core::write_file_atomically(elsewhere.path() / "letter", "dear");
-    fs::create_symlink(elsewhere.path() / "letter", folder / observables_file);
-    EXPECT_THROW(write_observables(folder, {number("one", observed)}), core::InputError)
-        << "it is no such file";
-    EXPECT_EQ(core::read_file(elsewhere.path() / "letter"), "dear");
-}
-
 TEST_F(Observables, AreNotBelievedWhenDamaged) {
     std::string const good = to_json({number("one", observed)});
     EXPECT_EQ(parse_observables(good).size(), 1u);

@@ -193,19 +193,6 @@ TEST_F(OpenPlan, KeepsTheCertificateOfItsEngineOnly) {
     EXPECT_FALSE(fs::exists(planned.certificate_file()));
 }
 
-// Its engine.json has no digests of what was frozen.
-TEST_F(OpenPlan, RefusesACampaignOfVersion01) {
-    overwrite(folder / "engine.json", R"({"program": "/opt/liggghts", "version": "LIGGGHTS 3.8.0"})");
-    EXPECT_NE(refusal().find(folder.string() + " is a campaign of version 0.1"), std::string::npos)
-        << refusal();
-    try {
-        freeze(plan, folder / "given.toml", {"/opt/liggghts", "LIGGGHTS 3.8.0"});
-        ADD_FAILURE() << "it would be overwritten";
-    } catch (core::InputError const& error) {
-        EXPECT_NE(std::string(error.what()).find("version 0.1"), std::string::npos) << error.what();
-    }
-}
-
 TEST_F(OpenPlan, RefusesAFolderThatIsNone) {
     fs::remove(folder / "engine.json");
     EXPECT_NE(refusal().find(folder.string() + " is not a campaign folder"), std::string::npos) << refusal();

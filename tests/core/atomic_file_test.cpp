@@ -6,11 +6,11 @@
 #include <csignal>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -69,25 +69,6 @@ TEST_F(AtomicFile, HandsOnTheModeOfTheFileThatItReplaces) {
     }
 }
 
-// A user who may not give the new file to the old one's group must not hand it to a group of their own: only
-// the rights of the owner and of everybody stay.
-TEST_F(AtomicFile, ShutsOutTheGroupWhereTheOwnerCannotBeKept) {
-    if (::geteuid() != 0) GTEST_SKIP() << "needs a file of somebody else";
-    constexpr uid_t nobody = 65534;
-    std::ofstream(folder / "a") << "old";
-    ASSERT_EQ(::chmod((folder / "a").c_str(), 0664), 0);
-    ASSERT_EQ(::chown(folder.c_str(), nobody, nobody), 0);
-    ASSERT_EQ(::setegid(nobody), 0);
-    ASSERT_EQ(::seteuid(nobody), 0);
-    EXPECT_NO_THROW(core::write_file_atomically(folder / "a", "new"));
-    ASSERT_EQ(::seteuid(0), 0);
-    ASSERT_EQ(::setegid(0), 0);
-    struct stat status {};
-    ASSERT_EQ(::stat((folder / "a").c_str(), &status), 0);
-    EXPECT_EQ(status.st_uid, nobody);
-    EXPECT_EQ(status.st_mode & 0777U, 0604U);
-}
-
 TEST_F(AtomicFile, WritesIntoAPipeAndRefusesALinkToIt) {
     fs::path const pipe = folder / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -103,38 +84,49 @@ TEST_F(AtomicFile, WritesIntoAPipeAndRefusesALinkToIt) {
     EXPECT_TRUE(fs::is_symlink(folder / "link"));
 }
 
-// A temporary file belongs to whoever holds its lock. The number in its name may be that of a living process
-// (this one), and the machine another.
-TEST_F(AtomicFile, RemovesWhatAKilledProcessLeftOfAFile) {
-    std::string const number = std::to_string(::getpid());
-    for (std::string const& name :
-         std::vector<std::string>{"a.part-elsewhere-1", "a.part-here-" + number, "b.part-elsewhere-1"})
-        std::ofstream(folder / name) << "half";
-    core::write_file_atomically(folder / "a", "whole");
-    EXPECT_TRUE(fs::exists(folder / "a.part-elsewhere-1")) << "in a folder that is not ours, it is a user's";
-    core::OwnFolder const own(folder);
-    int const living = ::open((folder / "a.part-living-1").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
-    ASSERT_EQ(::flock(living, LOCK_EX), 0);
-    fs::create_symlink(folder / "b.part-elsewhere-1", folder / "a.part-link");
-    core::replace_file(folder / "a", "whole");
-    EXPECT_FALSE(fs::exists(folder / "a.part-elsewhere-1"));
-    EXPECT_FALSE(fs::exists(folder / ("a.part-here-" + number)));
-    EXPECT_TRUE(fs::exists(folder / "a.part-living-1")) << "somebody still writes it";
-    EXPECT_TRUE(fs::is_symlink(folder / "a.part-link"));
-    EXPECT_EQ(core::read_file(folder / "b.part-elsewhere-1"), "half") << "it is another file's";
-    ::close(living);
-    core::write_file_atomically(folder / "a", "whole");
-    EXPECT_FALSE(fs::exists(folder / "a.part-living-1"));
-    EXPECT_EQ(core::read_file(folder / "a"), "whole");
-    core::remove_remains_of(folder / "b");
-    EXPECT_FALSE(fs::exists(folder / "b.part-elsewhere-1")) << "without writing b, which is not there";
-    EXPECT_FALSE(fs::exists(folder / "b"));
+TEST_F(AtomicFile, OnlyRegularFilesOfBoundedSizeAreRead) {
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_THROW(core::read_file(folder / "pipe"), core::MissingError);
+    EXPECT_THROW(core::read_file("/dev/zero"), core::MissingError);
+    core::write_file_atomically(folder / "sparse", "");
+    fs::resize_file(folder / "sparse", std::uintmax_t{10} << 30);  // needs no space on the disk
+    EXPECT_THROW(core::read_file(folder / "sparse"), core::MissingError);
+    EXPECT_THROW(core::read_given_file("/dev/zero"), core::MissingError);
+    core::write_file_atomically(folder / "small", "12345");
+    EXPECT_EQ(core::read_file(folder / "small", 5), "12345");
+    EXPECT_THROW(core::read_file(folder / "small", 4), core::MissingError);
 }
 
-TEST_F(AtomicFile, LeavesRemainsOutsideOfAnOwnFolder) {
-    std::ofstream(folder / "a.part-elsewhere-1") << "half";
-    core::remove_remains_of(folder / "a");
-    EXPECT_TRUE(fs::exists(folder / "a.part-elsewhere-1"));
+// What a killed process left is longer than the next file.
+TEST_F(AtomicFile, WhatAKilledProcessLeftIsReplaced) {
+    std::ofstream(folder / "a.part") << std::string(1000, 'x');
+    core::write_file_atomically(folder / "a", "whole");
+    EXPECT_EQ(core::read_file(folder / "a"), "whole");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+}
+
+TEST_F(AtomicFile, TwoWritersOfAFileDoNotMixTheirBytes) {
+    std::vector<std::jthread> writers;
+    for (char const letter : {'a', 'b', 'c', 'd'}) {
+        writers.emplace_back([this, letter] {
+            for (int i = 0; i < 50; ++i) core::replace_file(folder / "a", std::string(20'000, letter));
+        });
+    }
+    writers.clear();
+    std::string const text = core::read_file(folder / "a");
+    EXPECT_EQ(text, std::string(20'000, text.front()));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+}
+
+TEST_F(AtomicFile, AFileThatIsNotFinishedLeavesNothing) {
+    core::write_file_atomically(folder / "a", "old");
+    {
+        core::NewFile file(folder / "a");
+        file.write("half");
+        EXPECT_EQ(core::read_file(folder / "a"), "old");
+    }
+    EXPECT_EQ(core::read_file(folder / "a"), "old");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
 }
 
 }  // namespace

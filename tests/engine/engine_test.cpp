@@ -2,7 +2,6 @@
 
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
-#include "engine/folder_watch.hpp"
 #include "engine/run_report.hpp"
 #include "engine/sole_writer.hpp"
 #include "engine/stop_signals.hpp"
@@ -221,18 +220,6 @@ TEST(StopSignals, WhatIsIgnoredStaysIgnored) {
     EXPECT_EQ(received, SIGTERM);
     signals.clear();
     std::signal(SIGHUP, before);
-}
-
-TEST(FolderWatch, NoticesThatItsFolderIsAnotherOne) {
-    core::TemporaryFolder const temporary;
-    fs::path const folder = temporary.path() / "run";
-    fs::create_directory(folder);
-    FolderWatch const watch(folder);
-    EXPECT_NO_THROW(watch.check());
-    fs::rename(folder, temporary.path() / "renamed");
-    EXPECT_THROW(watch.check(), core::MissingError);
-    fs::create_directory(folder);
-    EXPECT_THROW(watch.check(), core::MissingError) << "another folder of the same name";
 }
 
 TEST_F(EngineTest, AMissingFolderIsAnError) {

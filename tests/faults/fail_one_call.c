@@ -140,16 +140,37 @@ int unlinkat(int folder, char const* name, int flags) {
     return (int)kernel(SYS_unlinkat, folder, name, flags);
 }
 
+int unlink(char const* name) {
+    return unlinkat(AT_FDCWD, name, 0);
+}
+
+int rmdir(char const* name) {
+    return unlinkat(AT_FDCWD, name, AT_REMOVEDIR);
+}
+
+int remove(char const* name) {
+    int const removed = unlink(name);
+    return removed != 0 && errno == EISDIR ? rmdir(name) : removed;
+}
+
 int mkdirat(int folder, char const* name, mode_t mode) {
     char place[PATH_MAX + NAME_MAX + 2];
     if (is_due("mkdir", path_at(folder, name, place))) return fail();
     return (int)kernel(SYS_mkdirat, folder, name, mode);
 }
 
+int mkdir(char const* name, mode_t mode) {
+    return mkdirat(AT_FDCWD, name, mode);
+}
+
 int linkat(int from_folder, char const* from, int to_folder, char const* to, int flags) {
     char place[PATH_MAX + NAME_MAX + 2];
     if (is_due("link", path_at(to_folder, to, place))) return fail();
     return (int)kernel(SYS_linkat, from_folder, from, to_folder, to, flags);
+}
+
+int link(char const* from, char const* to) {
+    return linkat(AT_FDCWD, from, AT_FDCWD, to, 0);
 }
 
 int openat(int folder, char const* name, int flags, ...) {
@@ -184,18 +205,6 @@ int openat64(int folder, char const* name, int flags, ...) {
     mode_t const mode = (flags & O_CREAT) != 0 ? va_arg(more, mode_t) : 0;
     va_end(more);
     return openat(folder, name, flags, mode);
-}
-
-/* openat2 has no function of its own in glibc. */
-long syscall(long number, ...) {
-    va_list more;
-    va_start(more, number);
-    long a[6];
-    for (int i = 0; i < 6; ++i) a[i] = va_arg(more, long);
-    va_end(more);
-    char place[PATH_MAX + NAME_MAX + 2];
-    if (number == SYS_openat2 && is_due("open", path_at((int)a[0], (char const*)a[1], place))) return fail();
-    return kernel(number, a[0], a[1], a[2], a[3], a[4], a[5]);
 }
 
 pid_t fork(void) {

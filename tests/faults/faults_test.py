@@ -103,7 +103,7 @@ class Faults(EndToEndTest):
                 again = self.call(*self.run_arguments(self.campaign, output))
                 self.assertEqual(again.returncode, 0, f"{done.stderr}\n{again.stdout}{again.stderr}")
                 self.assertEqual(without_wall_time(self.table(output)), wanted)
-                left = [one.name for one in output.rglob("*") if ".part-" in one.name or ".settling-" in one.name]
+                left = [one.name for one in output.rglob("*") if ".part" in one.name or ".settling-" in one.name]
                 self.assertEqual(left, [], "nothing half-written stays")
                 self.assertEqual(self.tree(), before, "no file of another is touched")
             shutil.rmtree(output, ignore_errors=True)
@@ -118,7 +118,7 @@ class Faults(EndToEndTest):
         again = self.call(*self.run_arguments(self.campaign, output))
         self.assertEqual(again.returncode, 0, f"{told}\n{again.stdout}{again.stderr}")
         self.assertEqual(without_wall_time(self.table(output)), wanted, told)
-        left = [one.name for one in output.rglob("*") if ".part-" in one.name]
+        left = [one.name for one in output.rglob("*") if ".part" in one.name]
         self.assertEqual(left, [], f"{told}: nothing half-written stays")
         with h5py.File(output / "campaign.h5") as file:
             return {name: repr(column[...].tolist()) for name, column in file.items() if name not in OF_THE_MOMENT}

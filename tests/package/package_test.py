@@ -1,7 +1,7 @@
 """The package as a user gets it: made with CPack, unpacked in another folder and used there, not from the build tree.
 
 It is unpacked and not installed, because that would change the machine. Programs of Debian read what belongs to it: dpkg-deb the
-package, groff the manual page, bash, zsh and fish the completions.
+package, groff the manual page, bash the completion.
 """
 
 import json
@@ -130,15 +130,6 @@ class Package(Unpacked):
         self.assertEqual(self.complete("theory", "point", "--throw"), ["--throw-number"])
         self.assertIn("--jobs", self.complete("run", "campaign.toml", "--"))
         self.assertEqual(self.complete("run", "campaign.tom"), [], "file names are left to bash")
-
-    def test_zsh_and_fish_can_read_their_completions(self):
-        for command in (["zsh", "-n", "usr/share/zsh/vendor-completions/_vibrotrough"],
-                        ["fish", "--no-execute", "usr/share/fish/vendor_completions.d/vibrotrough.fish"]):  # fmt: skip
-            done = call(*command[:-1], self.root / command[-1])
-            self.assertEqual((done.returncode, done.stderr), (0, ""), command)
-        script = self.root / "usr/share/fish/vendor_completions.d/vibrotrough.fish"
-        offered = call("fish", "--no-config", "-c", f"source {script}; complete -C 'vibrotrough theory po'").stdout
-        self.assertIn("point", offered)
 
     def test_version_names_libraries_and_engine(self):
         lines = call(self.program, "--version").stdout.splitlines()

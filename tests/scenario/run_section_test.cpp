@@ -41,29 +41,6 @@ TEST(RunSection, ReadsAllItsKeys) {
     EXPECT_EQ(settings.slurm.setup, (std::vector<std::string>{"module load openmpi", "export A='b c'"}));
 }
 
-TEST(RunSection, EachSchedulerHasItsOwnSection) {
-    scenario::RunSettings const settings = run_settings(
-        "[run]\nexecutor = \"pbs\"\n[run.pbs]\nqueue = \"workq\"\naccount = \"a\"\ntime = \"2 hours\"\n"
-        "memory = \"2 GB\"\nconcurrent_tasks = 7\nminutes_per_task = 30\ncores_per_task = 64\nextra = "
-        "[\"-lplace=excl\"]\n"
-        "setup = [\"module load openmpi\"]\n[run.slurm]\npartition = \"compute\"\n");
-    EXPECT_EQ(settings.executor, "pbs");
-    scenario::BatchSettings const& pbs = settings.batch(settings.executor);
-    EXPECT_EQ(pbs.partition->str(), "workq");
-    EXPECT_EQ(pbs.account->str(), "a");
-    EXPECT_EQ(pbs.minutes, 120);
-    EXPECT_EQ(pbs.memory, 2048);
-    EXPECT_EQ(pbs.concurrent_tasks, 7);
-    EXPECT_EQ(pbs.minutes_per_task, 30);
-    EXPECT_EQ(pbs.cores_per_task, 64);
-    ASSERT_EQ(pbs.extra.size(), 1u);
-    EXPECT_EQ(pbs.extra[0].str(), "-lplace=excl");
-    EXPECT_EQ(pbs.setup, std::vector<std::string>{"module load openmpi"});
-    EXPECT_EQ(settings.batch("slurm").partition->str(), "compute");
-    EXPECT_FALSE(settings.batch("slurm").account);
-    EXPECT_FALSE(settings.batch("local").partition);
-}
-
 TEST(RunSection, DoesNotChangeTheCases) {
     auto const with_run =
         scenario::parse_campaign(example_campaign + "[run]\nretries = 2\n", "campaign.toml");
@@ -101,27 +78,19 @@ TEST(RunSection, OptionsThatDoMoreThanAskAreRefused) {
     for (char const* option :
          {"--qos=short", "--gres=gpu:a100:1", "--exclude=n[1-3],n7", "--exclusive", "--mail-user=me@x.org"})
         EXPECT_TRUE(scenario::SlurmOption::from(option)) << option;
-    for (char const* option :
-         {"", "-l", "-o/etc/passwd", "-vLD_PRELOAD=x", "-V", "-Wblock=true", "-J0-9", "-qother", "-S/bin/sh",
-          "-l place=excl", "-lplace='excl'", "-C#X", "--", "-Ia", "lplace=excl"})
-        EXPECT_FALSE(scenario::PbsOption::from(option)) << option;
-    for (char const* option :
-         {"-lplace=scatter:excl", "-lngpus=1", "-Pgranular", "-p-10", "-mae", "-Mme@x.org"})
-        EXPECT_TRUE(scenario::PbsOption::from(option)) << option;
 }
 
 TEST(RunSection, MistakesNameTheirPlace) {
     for (auto const& [section, part] : std::vector<std::pair<std::string, std::string>>{
-             {"[run]\nexecutor = \"cloud\"\n", "local, slurm or pbs"},
+             {"[run]\nexecutor = \"cloud\"\n", "local or slurm"},
              {"[run]\nexecutor = 3\n", "is not a text"},
              {"[run]\nretry = 3\n", "executor, retries, ranks, time_limit"},
              {"[run.slurm]\nqueue = \"a\"\n",
               "partition, account, time, memory, concurrent_tasks, minutes_per_task, extra, setup"},
              {"[run]\nretries = -1\n", "out of range"},
              {"[run]\nranks = 1.5\n", "not a whole number"},
-             {"[run.pbs]\npartition = \"a\"\n", "queue, account, time, memory, concurrent_tasks"},
-             {"[run.pbs]\nextra = [\"-o/x\"]\n", "-l, -m, -M, -p, -P"},
-             {"[run.pbs]\nqueue = \"a b\"\n", "is not allowed"},
+             {"[run]\nexecutor = \"pbs\"\n", "prepare"},
+             {"[run.pbs]\nqueue = \"a\"\n", "unknown key"},
              {"[run.slurm]\ntime = \"3 m\"\n", "run.slurm.time"},
              {"[run.slurm]\nmemory = \"3 kg\"\n", "1 MB to"},
              {"[run.slurm]\nextra = \"--qos=a\"\n", "is not a list"},

@@ -55,7 +55,6 @@ class Site:
     minutes_per_task: float  # 0: one packing for each task
     operation: float
     operations: float
-    scratch: bool  # run.scratch
 
 
 FLUSHED_LINES = 100  # of a cycle, by the engine
@@ -70,7 +69,7 @@ def hours(campaign: Campaign, site: Site, engine: Engine, measured: dict[str, fl
     tasks = np.ceil(packings / in_task)
     driver_operations = measured["operations_of_prepare"] + measured["operations_of_run"]
     driver = campaign.cases * (measured["driver"] + driver_operations * site.operation / THREADS)
-    operations = packings * (measured["operations_of_work"] + (0 if site.scratch else FLUSHED_LINES * campaign.cycles)) + campaign.cases * driver_operations
+    operations = packings * (measured["operations_of_work"] + FLUSHED_LINES * campaign.cycles) + campaign.cases * driver_operations
     return {
         "engines": packings * one / site.cores / 3600,
         "scheduler": tasks / measured["tasks_per_second"] / 3600,

@@ -42,9 +42,9 @@ def judge_driver(run: ValidationCase, measured: dict[str, float]) -> None:
 
 def plan_of_cases(run: ValidationCase, engine: model.Engine, measured: dict[str, float]) -> list[list[object]]:
     rows: list[list[object]] = []
-    for name, minutes, delay, scratch in (("as it is", 0.0, DELAY, False), ("30 minutes a task", 30.0, DELAY, False), ("30 minutes, scratch", 30.0, DELAY, True)):
+    for name, minutes in (("as it is", 0.0), ("30 minutes a task", 30.0)):
         for cores in CORES:
-            parts = model.hours(SMALL, model.Site(cores, minutes, delay, SERVER, scratch), engine, measured)
+            parts = model.hours(SMALL, model.Site(cores, minutes, DELAY, SERVER), engine, measured)
             slowest = max(parts, key=parts.__getitem__)
             rows.append([name, cores, *(f"{hours:.3g}" for hours in parts.values()), slowest])
     return rows

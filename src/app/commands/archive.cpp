@@ -6,7 +6,6 @@
 #include "campaign/state/campaign_folder.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
-#include "core/text.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -59,10 +58,10 @@ int run_archive(ArchiveArguments const& options) {
     fs::path const output = options.output.empty() ? fs::path(plan.name + ".zip") : fs::path(options.output);
     archive::BundleReport const report =
         archive::write_bundle(plan, campaign::activity_in(plan.folder), output, options.words);
-    fmt::print("{}: {} files, {:.1f} MB, {} of {} cases with a result\n", core::harmless(output.string()),
-               report.files, static_cast<double>(report.bytes) / 1e6, report.results, plan.cases.size());
+    fmt::print("{}: {} files, {:.1f} MB, {} of {} cases with a result\n", output.string(), report.files,
+               static_cast<double>(report.bytes) / 1e6, report.results, plan.cases.size());
     std::string const folder = core::shell_word(options.folder);
-    if (!report.left_aside.empty()) fmt::print("left aside: {}\n", core::harmless(report.left_aside));
+    if (!report.left_aside.empty()) fmt::print("left aside: {}\n", report.left_aside);
     if (std::string const fault = fault_of(report.campaign_file); !fault.empty())
         fmt::print("without campaign.h5, {}: 'vibrotrough run' writes it\n", fault);
     if (!report.has_report)
@@ -112,9 +111,8 @@ A bundle names the machines on which it was simulated and the path of the engine
 Exit codes:
     0  all well
     2  the input is wrong: the campaign is still running, a result is damaged, a case has no result
-       or the frozen campaign file was changed (both without --partial), or the output is another
-       file
-    3  a file cannot be read (a symbolic link is not followed), or there is no disk space
+       (without --partial), or the output is another file
+    3  a file cannot be read, or there is no disk space
 
 Example:
   vibrotrough archive runs/demo --output supplement.zip --author "A. Researcher" \

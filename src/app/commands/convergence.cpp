@@ -13,7 +13,6 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/shell.hpp"
-#include "core/text.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
 #include <algorithm>
@@ -71,7 +70,7 @@ std::vector<campaign::NumericsStudy> plan_studies(campaign::Plan const& plan,
             throw core::InputError(
                 fmt::format("--case {}: the campaign '{}' has no such case; 'vibrotrough "
                             "plan' lists the ids of its cases",
-                            core::printable(id, 40), plan.name));
+                            id, plan.name));
         }
         bool const twice = std::ranges::any_of(studies, [&](auto const& one) { return one.case_id == id; });
         if (!twice) studies.push_back(campaign::plan_study(*planned, options.half_width));
@@ -155,7 +154,6 @@ int run_convergence(ConvergenceArguments const& options) {
     auto const studies = plan_studies(original, options);
     fs::path const folder = original.folder / "convergence";
     core::make_folder(original.folder);
-    core::OwnFolder const own(original.folder);
     core::make_folder(folder);
     if (!certify(engine, options.accept_failed_probes)) return interrupted;
     campaign::Plan plan = write_study(original, studies, folder, engine.version);
@@ -179,8 +177,8 @@ int run_convergence(ConvergenceArguments const& options) {
     bool const was_run = fs::is_regular_file(original.folder / "campaign.h5");
     if (was_run) campaign::write_campaign_file(original);
     fmt::print("written to {}; see it{} with: vibrotrough compare {} --budget\n",
-               core::harmless(campaign::numerics_file(original.folder).string()),
-               was_run ? "" : " after 'vibrotrough run'", core::shell_word(original.folder));
+               campaign::numerics_file(original.folder).string(), was_run ? "" : " after 'vibrotrough run'",
+               core::shell_word(original.folder));
     print_advice(budgets);
     bool const all =
         std::ranges::all_of(budgets, [](auto const& one) { return one.numerical_error().has_value(); });

@@ -5,9 +5,8 @@
 #include "app/exit_code.hpp"
 #include "app/extra_lines.hpp"
 #include "campaign/schedule/policy.hpp"
-#include "core/own_folder.hpp"
+#include "core/atomic_file.hpp"
 #include "core/shell.hpp"
-#include "core/text.hpp"
 #include "deck/deck_folder.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "scenario/reader/written_campaign.hpp"
@@ -53,7 +52,6 @@ int run_deck(DeckArguments const& options) {
     use_templates(options.templates, campaign.cases);
     tell_not_covered(campaign.cases);
     core::make_folder(options.output);
-    core::OwnFolder const own(options.output);
     int number = 0;
     prepare::CasePreparer preparer;
     auto const policy = campaign::make_policy();
@@ -65,8 +63,8 @@ int run_deck(DeckArguments const& options) {
         auto const first_round = policy->decide({&planned, {}, {}, {}}).wanted;
         write_case(folder, prepared, first_round);
         fmt::print("{}: throw number {:.4g}, machine number {:.4g}, {} grains, {} packings\n",
-                   core::harmless(folder.string()), prepared.throw_number, prepared.machine_number,
-                   scenario.layer.grains, first_round.size());
+                   folder.string(), prepared.throw_number, prepared.machine_number, scenario.layer.grains,
+                   first_round.size());
     }
     fmt::print(
         "{} cases written; run one by hand with: cd {} && liggghts -in settle.liggghts && liggghts -in "
@@ -92,7 +90,7 @@ void add_deck(CLI::App& program, int& exit_code) {
         R"(Writes a folder with the complete input of LIGGGHTS for each packing of each case, and prints how to
 run one by hand. The packings are those with which 'vibrotrough run' begins, with the same starts and numbers of cycles;
 by hand they give the same numbers. The file control.in says after which cycle a run ends. The command does not need
-LIGGGHTS. It replaces the files of an earlier call, but none that you wrote or edited.
+LIGGGHTS. It replaces no file: give another folder for another deck.
 
 Example:
   vibrotrough deck validation/demo/campaign.toml --output decks)");

@@ -126,9 +126,11 @@ std::optional<view::ExportedFrames> export_packing(campaign::PlannedCase const& 
     bool const terminal = ::isatty(STDERR_FILENO) == 1;
     fs::path const target = planned.folder / (number == 1 ? "frames" : fmt::format("frames-{}", number));
     auto exported = view::export_frames(source, target, [&](int written, int all) {
-        if (terminal) tell("\r{}: {} of {} frames\x1b[K", title(planned, number), written, all);
+        if (!terminal) return;
+        tell_text("\r\x1b[K");
+        tell("{}: {} of {} frames", title(planned, number), written, all);
     });
-    if (terminal) tell("\r\x1b[K");
+    if (terminal) tell_text("\r\x1b[K");
     return exported;
 }
 

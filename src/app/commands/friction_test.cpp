@@ -12,7 +12,6 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/shell.hpp"
-#include "core/text.hpp"
 #include "scenario/reader/shake_test.hpp"
 
 #include <algorithm>
@@ -77,7 +76,6 @@ int run_friction_test(FrictionTestArguments const& options) {
     double const k = options.machine_number.value_or(evaluate::default_machine_number(friction));
 
     core::make_folder(folder);
-    core::OwnFolder const own(folder);
     core::make_folder(test_folder);
     if (!certify(engine, options.accept_failed_probes)) return interrupted;
     fs::path const test_file = test_folder / "shake-test.toml";
@@ -104,7 +102,7 @@ int run_friction_test(FrictionTestArguments const& options) {
     }
     campaign::write_friction(folder, tests);
     fmt::print("written to {}; 'vibrotrough compare {}' now also shows the theory at this friction\n",
-               core::harmless(campaign::friction_file(folder).string()), core::shell_word(folder));
+               campaign::friction_file(folder).string(), core::shell_word(folder));
     return exit_code_of(summary, tests);
 }
 

@@ -5,7 +5,6 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
-#include "core/text.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -59,7 +58,7 @@ int run_init(InitArguments const& options) {
     }
     for (auto const& [file, text] : files) {
         core::write_file_atomically(file, text);
-        fmt::print("written: {}\n", core::harmless(file.string()));
+        fmt::print("written: {}\n", file.string());
     }
     std::string const name = core::shell_word(path);
     fmt::print("next: change its numbers, then: vibrotrough check {}\n", name);

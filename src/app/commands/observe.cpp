@@ -8,9 +8,7 @@
 #include "campaign/state/observables.hpp"
 #include "campaign/state/overview.hpp"
 #include "core/error.hpp"
-#include "core/own_folder.hpp"
 #include "core/shell.hpp"
-#include "core/text.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -59,8 +57,7 @@ void print_text(std::vector<Observed> const& observed, campaign::Plan const& pla
         if (!missing.empty()) continue;
         std::string const over =
             observable.is_number() ? "" : fmt::format(" over {} [{}]", observable.over, observable.over_unit);
-        fmt::print("{} [{}]{}: {}\n", observable.name, observable.unit, over,
-                   core::harmless(observable.meaning));
+        fmt::print("{} [{}]{}: {}\n", observable.name, observable.unit, over, observable.meaning);
         for (store::ObservedCase const& one : observable.cases) {
             fmt::print("{}", line_of(observable, one, name_in(plan, one.id)));
             is_of_one_packing = is_of_one_packing || one.packings.size() == 1;
@@ -71,8 +68,8 @@ void print_text(std::vector<Observed> const& observed, campaign::Plan const& pla
             "an interval is unbounded where one packing was measured, because it does not tell how packings "
             "differ; frame_packings = \"all\" keeps the frames of all\n");
     std::string const word = core::shell_word(folder);
-    fmt::print("kept in {}/{} and campaign.h5; numbers are columns of: vibrotrough compare {}\n",
-               core::harmless(folder), campaign::observables_file, word);
+    fmt::print("kept in {}/{} and campaign.h5; numbers are columns of: vibrotrough compare {}\n", folder,
+               campaign::observables_file, word);
 }
 
 int run_observe(ObserveArguments const& options) {
@@ -84,7 +81,6 @@ int run_observe(ObserveArguments const& options) {
         throw core::InputError(
             "DIR is missing, the folder of a campaign's results; see 'vibrotrough observe --help'");
     campaign::Plan const plan = campaign::open_plan(options.folder);
-    core::OwnFolder const own(plan.folder);
     ObservableSource const source =
         options.file.empty() ? shipped_observables() : read_observable_source(options.file, options.allowed);
     Observing const found = observe(plan, source, options.only, options.python);

@@ -11,7 +11,6 @@
 #include "core/error.hpp"
 #include "core/note.hpp"
 #include "core/own_program.hpp"
-#include "core/text.hpp"
 #include "learn/design_file.hpp"
 #include "prepare/prepared_case.hpp"
 
@@ -108,8 +107,7 @@ Shown read_results(std::vector<std::string> const& paths) {
         if (fs::path(path).extension() == ".json" && !fs::is_directory(path)) {
             if (!fs::exists(path))
                 throw core::InputError(fmt::format(
-                    "{}: there is no such file; write 'vibrotrough design ... --json > design.json'",
-                    core::harmless(path)));
+                    "{}: there is no such file; write 'vibrotrough design ... --json > design.json'", path));
             try {
                 Json design = learn::proposed_machines(core::read_file(path));
                 design["name"] = name_of(path);
@@ -118,7 +116,7 @@ Shown read_results(std::vector<std::string> const& paths) {
                 throw core::InputError(fmt::format(
                     "{}: this is not what 'vibrotrough design --json' prints ({}); write 'vibrotrough "
                     "design ... --json > design.json'",
-                    core::harmless(path), fault.what()));
+                    path, fault.what()));
             }
         } else if (shown.campaign.is_null()) {
             shown.campaign = cases_of(path);
@@ -126,7 +124,7 @@ Shown read_results(std::vector<std::string> const& paths) {
             throw core::InputError(
                 fmt::format("{}: the page shows one campaign; leave one out, or put the cases of "
                             "both into one campaign",
-                            core::harmless(path)));
+                            path));
         }
     }
     constexpr std::size_t most = 2;
@@ -159,7 +157,7 @@ int run_page(PageArguments const& options) {
     if (!shown.campaign.is_null()) put(page, "campaign", shown.campaign);
     if (!shown.designs.empty()) put(page, "designs", shown.designs);
     core::write_file_atomically(options.output, page);
-    fmt::print("{}\n", core::harmless(options.output));
+    fmt::print("{}\n", options.output);
     return all_well;
 }
 

@@ -29,19 +29,15 @@ Example:
 
 void add_completion(CLI::App& program, int& exit_code) {
     CLI::App* const command =
-        program.add_subcommand("completion", "Print what makes a shell complete commands and options");
-    auto const shell = std::make_shared<std::string>();
-    command->add_option("SHELL", *shell, "bash, zsh or fish")
-        ->required()
-        ->type_name("")
-        ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+        program.add_subcommand("completion", "Print what makes bash complete commands and options");
+    command->add_option("SHELL", "bash")->required()->type_name("")->check(CLI::IsMember({"bash"}));
     command->footer(
-        R"(An installed program brings the completions of all three shells along. For one in its build folder:
+        R"(An installed program brings its completion along. For one in its build folder:
 
 Example:
   vibrotrough completion bash > ~/.local/share/bash-completion/completions/vibrotrough)");
-    command->callback([&program, &exit_code, shell] {
-        fmt::print("{}", shell_completion(program, *shell));
+    command->callback([&program, &exit_code] {
+        fmt::print("{}", bash_completion(program));
         exit_code = all_well;
     });
 }

@@ -11,9 +11,7 @@
 #include "compare/select.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/own_folder.hpp"
 #include "core/quantity.hpp"
-#include "core/text.hpp"
 #include "scenario/reader/keys.hpp"
 
 #include <algorithm>
@@ -101,8 +99,8 @@ double factor_to(std::string const& unit, compare::Column const& column) {
     try {
         return core::parse_quantity("1 " + column.unit, unit);
     } catch (core::QuantityError const& error) {
-        throw core::InputError(fmt::format("--unit {}: {}; {} is in {}", core::printable(unit, 60),
-                                           error.what(), column.name, column.unit));
+        throw core::InputError(
+            fmt::format("--unit {}: {}; {} is in {}", unit, error.what(), column.name, column.unit));
     }
 }
 
@@ -148,7 +146,6 @@ std::vector<std::string> words_for_columns(PlotArguments const& options, campaig
         campaign::Plan const other = open_for_figures(folder, options);
         fs::path const output = fs::path(folder) / "report";
         core::make_folder(output);
-        core::OwnFolder const own(output);
         tell_left_aside(
             other, compare::write_report_data(other, campaign::activity_in(other.folder), output / "data"));
         words.insert(words.end(), {"--with", fs::absolute(output).lexically_normal().string()});
@@ -163,7 +160,6 @@ int run_plot(PlotArguments const& options) {
     check_cases(options, plan);
     fs::path const output = output_folder(options);
     core::make_folder(output);
-    core::OwnFolder const own(output);
     auto const cases = compare::write_report_data(plan, campaign::activity_in(plan.folder), output / "data");
     tell_left_aside(plan, cases);
     bool const finished = std::ranges::any_of(cases, [](auto const& one) { return one.result.has_value(); });

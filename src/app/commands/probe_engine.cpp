@@ -3,7 +3,6 @@
 #include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
 #include "core/atomic_file.hpp"
-#include "core/text.hpp"
 #include "engine/certificate_cache.hpp"
 #include "engine/probe.hpp"
 
@@ -33,7 +32,7 @@ std::string describe(engine::ProbeResult const& probe) {
 }
 
 void print_text(engine::Certificate const& certificate) {
-    fmt::print("{}\n{}\n", core::harmless(certificate.engine.program), certificate.engine.version);
+    fmt::print("{}\n{}\n", certificate.engine.program, certificate.engine.version);
     if (!certificate.engine.library.empty()) fmt::print("links {}\n", certificate.engine.library);
     for (engine::ProbeResult const& probe : certificate.probes) fmt::print("{}\n", describe(probe));
     if (certificate.grain_steps_per_cpu_second > 0) {

@@ -7,7 +7,6 @@
 #include "campaign/schedule/policy.hpp"
 #include "campaign/state/overview.hpp"
 #include "core/shell.hpp"
-#include "core/text.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -46,7 +45,7 @@ void print_unused_cases(campaign::Plan const& plan) {
     std::size_t const unused = campaign::count_left_aside(plan);
     if (unused > 0)
         fmt::print("{} cases in {} belong to an earlier version of the campaign and are not used\n", unused,
-                   core::harmless((plan.folder / "cases").string()));
+                   (plan.folder / "cases").string());
 }
 
 /// What was submitted, for packings that run on after this command has returned.
@@ -83,8 +82,7 @@ int report(campaign::Summary const& summary, campaign::Plan const& plan, campaig
     if (runs_on) {
         fmt::print("follow with: vibrotrough status {}\n", folder);
     } else {
-        fmt::print("results in {}; see them with: vibrotrough compare {}\n",
-                   core::harmless(plan.folder.string()), folder);
+        fmt::print("results in {}; see them with: vibrotrough compare {}\n", plan.folder.string(), folder);
     }
     if (runs_on && !summary.interrupted) return all_well;
     return exit_code_of(summary);

@@ -1,9 +1,7 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
-#include "app/notebook.hpp"
 #include "app/tutorial_files.hpp"
 #include "core/atomic_file.hpp"
-#include "core/text.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -34,12 +32,12 @@ std::vector<std::string> walks() {
     return names;
 }
 
-/// Writes a file unless there is one: a person may have changed it, and a notebook changes when it is used.
+/// Writes a file unless there is one, which a person may have changed.
 void write_new_file(fs::path const& path, std::string_view text) {
     std::error_code unreadable;
     bool const exists = fs::exists(fs::symlink_status(path, unreadable));
     if (!exists) core::write_file_atomically(path, text);
-    fmt::print("{}: {}\n", exists ? "there already" : "written", core::harmless(path.string()));
+    fmt::print("{}: {}\n", exists ? "there already" : "written", path.string());
 }
 
 int run_tutorial(TutorialArguments const& options) {
@@ -52,7 +50,6 @@ int run_tutorial(TutorialArguments const& options) {
             continue;
         }
         write_new_file(fs::path(options.output) / name, text);
-        if (is_page) write_new_file(fs::path(options.output) / (options.walk + ".ipynb"), notebook_of(text));
     }
     return all_well;
 }
@@ -67,9 +64,8 @@ void add_tutorial(CLI::App& program, int& exit_code) {
         ->check(CLI::IsMember(walks()))
         ->capture_default_str();
     command
-        ->add_option(
-            "--output", options->output,
-            "Write the page, the same as a Jupyter notebook, and the files that it uses into this folder")
+        ->add_option("--output", options->output,
+                     "Write the page and the files that it uses into this folder")
         ->type_name("DIR");
     command->footer(
         R"(Each walk takes about two minutes on two cores:

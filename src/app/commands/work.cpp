@@ -7,7 +7,6 @@
 #include "campaign/execute/task_list.hpp"
 #include "campaign/schedule/until_precise.hpp"
 #include "campaign/state/campaign_folder.hpp"
-#include "core/text.hpp"
 #include "learn/learner.hpp"
 
 #include <cstdio>
@@ -32,7 +31,7 @@ int run_work(WorkArguments& options) {
     options.limits.foreign_commands = {options.allow_extra};
     if (options.time_limit > 0) options.limits.time_limit = options.time_limit;
     // The campaign's folder names the program that is started; whoever looks at the output shall see which.
-    tell("engine: {}\n", core::harmless(campaign::read_engine(options.folder).program.string()));
+    tell("engine: {}\n", campaign::read_engine(options.folder).program.string());
     campaign::UntilPrecise const policy(learn::read_wanted_half_widths(options.folder));
     int worst = all_well;
     for (campaign::PackingId const& packing : campaign::read_task(options.task_list, options.index)) {

@@ -7,7 +7,6 @@
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
 #include "core/shell.hpp"
-#include "core/text.hpp"
 #include "core/time.hpp"
 
 #include <algorithm>
@@ -147,8 +146,7 @@ std::optional<TaskActivity> by_marker(Batch const& batch, std::size_t index, Mar
     if (is_there(marker(batch, index, "ended"))) {
         std::string const code = core::read_file(marker(batch, index, "ended"), core::largest_note);
         activity.message = fmt::format("the task ended with exit code {}; see {}",
-                                       core::printable(code.substr(0, code.find('\n')), 10),
-                                       marker(batch, index, "out").string());
+                                       code.substr(0, code.find('\n')), marker(batch, index, "out").string());
         return activity;
     }
     fs::path const lost = marker(batch, index, "lost");
@@ -234,14 +232,6 @@ std::vector<Batch> read_batches(Scheduler const& scheduler, fs::path const& camp
         if (auto batch = read_batch(folder)) batches.push_back(std::move(*batch));
     }
     return batches;
-}
-
-void remove_remains_of_batches(Scheduler const& scheduler, fs::path const& campaign_folder) {
-    std::error_code missing;
-    for (auto const& entry : fs::directory_iterator(campaign_folder / scheduler.name, missing)) {
-        for (char const* const file : {"batch.json", "tasks.txt", "job.sh"})
-            core::remove_remains_of(entry.path() / file);
-    }
 }
 
 Batch write_batch(Scheduler const& scheduler, fs::path const& campaign_folder, std::vector<Task> const& tasks,

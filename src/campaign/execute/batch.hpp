@@ -31,10 +31,6 @@ struct Batch {
 /// All batches of a campaign that a scheduler was given, oldest first; damaged ones are left out.
 std::vector<Batch> read_batches(Scheduler const& scheduler, std::filesystem::path const& campaign_folder);
 
-/// Removes what a driver that was killed while it wrote left of the files of all batches: they are not
-/// written again, so that nothing else would.
-void remove_remains_of_batches(Scheduler const& scheduler, std::filesystem::path const& campaign_folder);
-
 /// What the job script of a batch must know.
 struct JobScript {
     std::filesystem::path program;     ///< vibrotrough itself

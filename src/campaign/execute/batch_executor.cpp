@@ -31,7 +31,6 @@ class BatchExecutor : public Executor {
         : scheduler_(scheduler), inputs_(inputs), asked_(inputs_.settings.batch(scheduler.name)) {}
 
     std::vector<PackingActivity> given_before() override {
-        remove_remains_of_batches(scheduler_, inputs_.campaign_folder);
         std::vector<Batch> batches = read_batches(scheduler_, inputs_.campaign_folder);
         remember_lost_tasks(scheduler_, batches);
         return survey_packings(scheduler_, batches);
@@ -160,13 +159,13 @@ class BatchExecutor : public Executor {
         try {
             made = scheduler_.submit(array);
         } catch (core::MissingError const&) {
-            core::remove_tree(batch.folder);  // what is refused leaves nothing behind
+            std::filesystem::remove_all(batch.folder);  // what is refused leaves nothing behind
             throw;
         }
         if (made.job) {
             remember_job(batch, *made.job);
         } else {
-            core::remove_tree(batch.folder);
+            std::filesystem::remove_all(batch.folder);
         }
         return made;
     }

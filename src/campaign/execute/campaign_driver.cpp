@@ -8,10 +8,8 @@
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/folder_lock.hpp"
 #include "campaign/state/result_summary.hpp"
-#include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "engine/folder_watch.hpp"
 #include "engine/sole_writer.hpp"
 #include "engine/stop_signals.hpp"
 #include "evaluate/case.hpp"
@@ -101,7 +99,9 @@ class Driver {
             if (!std::exchange(is_stopping_, true)) observer_.stopping();
             executor_.interrupt();
         }
-        watch_.check();
+        if (!fs::exists(plan_.folder))
+            throw core::MissingError(
+                fmt::format("{} was renamed or removed while its campaign ran", plan_.folder.string()));
         for (EndedPacking& ended : executor_.wait()) handle(ended);
         submit_orders();
         report();
@@ -196,16 +196,14 @@ class Driver {
         std::error_code missing;
         bool const runs_here = !executor_.outlives_driver();
         std::optional<FileLock> lock;  // a task may be at work in the folder
-        if (runs_here && fs::exists(fs::symlink_status(folder, missing)))
-            lock.emplace(require_packing(planned, packing));
+        if (runs_here && fs::exists(folder, missing)) lock.emplace(require_packing(planned, packing));
         // A packing that is continued is no longer finished; its checkpoint keeps what is known of it.
         if (one.known.packings.contains(packing)) evaluate::remove_marker(folder);
         // Remains of an interrupted run would look like a run of today, unless it continues from a
         // checkpoint.
         if (lock && !one.known.failure && !has_checkpoint(folder)) {
             engine::make_sole_writer(folder);
-            remove_run_files(folder);
-            core::remove_if_empty(folder);
+            fs::remove_all(folder);
         }
         one.in_hand.insert(packing);
         orders_.push_back({&planned, wanted});
@@ -361,7 +359,6 @@ class Driver {
     ForeignCommands const& foreign_commands_;
     Observer& observer_;
     StopSignals signals_;
-    engine::FolderWatch watch_{plan_.folder};
     std::deque<DrivenCase> cases_;
     std::map<std::string, DrivenCase*> by_id_;
     std::map<PackingId, PackingActivity> before_;  ///< what earlier runs gave to the executor
@@ -384,7 +381,6 @@ Summary run_campaign(Plan& plan, fs::path const& campaign_file, Policy const& po
     for (PlannedCase const& planned : plan.cases)  // added ones may come from elsewhere
         check_foreign_commands(plan.folder.string(), planned.scenario(), inputs.foreign_commands);
     core::make_folder(plan.folder);
-    core::OwnFolder const own(plan.folder);
     FolderLock const lock(plan.folder);
     freeze(plan, campaign_file, inputs.engine);
     refuse_other_executors(plan.folder, kind);

@@ -34,7 +34,6 @@ store::CaseRecord finish_case(PlannedCase const& planned, std::string const& eng
     FileLock const lock = lock_case(planned);
     if (auto result = read_whole_result(planned); result && is_made_of(*result, parts))
         return std::move(*result);
-    core::remove_remains_of(planned.failure_file());  // which may never be written again
     evaluate::EvaluatedPackings used;
     for (int const packing : parts.packings) {
         auto known = evaluated.extract(packing);
@@ -52,7 +51,7 @@ store::CaseRecord finish_case(PlannedCase const& planned, std::string const& eng
         evaluate::evaluate_case(*planned.prepared, planned.id, engine_version, std::move(used));
     store::write_result(planned.result_file(), record);
     write_summary(planned, record);
-    core::remove_file(planned.failure_file());
+    std::filesystem::remove(planned.failure_file());
     if (record.outcome == core::Outcome::finished) {  // the packings of other cases may be continued
         for (int const packing : parts.packings) remove_checkpoints(planned.packing_folder(packing));
     }

@@ -36,7 +36,7 @@ void record_failure(PlannedCase const& planned, int packing, core::Outcome outco
                     std::string const& message, int attempts_before = 0);
 
 /// The lock of whoever runs a packing, or removes files from its folder: a driver or a task of a cluster. It
-/// holds wherever the engine works (run.scratch), and the engine does not inherit it. None when another
+/// holds wherever the engine works, and the engine does not inherit it. None when another
 /// process has it.
 /// @throws core::MissingError when the file cannot be made
 std::optional<FileLock> lock_packing(PlannedCase const& planned, int packing);

@@ -31,7 +31,6 @@ ExecutorKind batch_kind() {
 std::array const kinds{
     ExecutorKind{"local", "this machine", make_local_executor, none},
     batch_kind<slurm>(),
-    batch_kind<pbs>(),
     // Not of campaign files: `vibrotrough prepare` uses it.
     ExecutorKind{"task-list", "a task list", make_task_list_executor, none},
 };

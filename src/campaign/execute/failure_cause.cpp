@@ -1,6 +1,5 @@
 #include "campaign/execute/failure_cause.hpp"
 
-#include "campaign/execute/run_place.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
@@ -10,9 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <optional>
-#include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -24,35 +21,17 @@ namespace fs = std::filesystem;
 /// Why the folder takes no more, if it does not: tried, because free space alone says nothing about quotas.
 std::optional<std::string> full_disk(fs::path const& folder) {
     fs::path const probe = folder / fmt::format(".probe-{}", ::getpid());
-    core::ParentFolder const parent(probe);
-    int const file = parent.open(O_WRONLY | O_CREAT | O_EXCL);
-    int reason = file < 0 ? errno : 0;
-    if (file >= 0) {
-        std::vector<char> const content(256 << 10, 'x');
-        // What does not fit is cut off, and the next write says why.
-        std::size_t rest = content.size();
-        while (rest > 0 && reason == 0) {
-            ssize_t const written = ::write(file, content.data(), rest);
-            if (written <= 0) reason = written < 0 ? errno : ENOSPC;
-            if (written > 0) rest -= static_cast<std::size_t>(written);
-        }
-        if (reason == 0 && ::fsync(file) != 0) reason = errno;
-        ::close(file);
-        ::unlinkat(parent.descriptor(), parent.name(), 0);
-    }
-    if (reason != ENOSPC && reason != EDQUOT && reason != EFBIG) return {};
-    return core::reason_of(reason);
-}
-
-/// The same of a private folder of this machine, as the engine has one.
-std::optional<std::string> full_scratch(std::string const& scratch) {
-    if (scratch.empty()) return {};
+    std::optional<std::string> reason;
     try {
-        core::TemporaryFolder const probe("vibrotrough-scratch", scratch_here(scratch));
-        return full_disk(probe.path());
+        core::write_file_atomically(probe, std::string(256 << 10, 'x'));
+    } catch (core::DiskFullError const& error) {
+        reason = error.what();
     } catch (core::MissingError const&) {
-        return {};  // it cannot be used, which is said where it is made
+        // Not full, but the folder is gone or may not be written to.
     }
+    std::error_code missing;
+    fs::remove(probe, missing);
+    return reason;
 }
 
 }  // namespace
@@ -68,8 +47,7 @@ long count_memory_kills() {
     }
 }
 
-PackingEnd find_cause(PlannedCase const& planned, int packing, PackingEnd end, long memory_kills,
-                      std::string const& scratch) {
+PackingEnd find_cause(PlannedCase const& planned, int packing, PackingEnd end, long memory_kills) {
     if (!end.failure || end.failure == core::Outcome::interrupted || end.failure == core::Outcome::disk_full)
         return end;  // it is known already
     fs::path const folder = planned.packing_folder(packing);
@@ -80,9 +58,6 @@ PackingEnd find_cause(PlannedCase const& planned, int packing, PackingEnd end, l
                reason && end.failure != core::Outcome::out_of_memory) {
         end.failure = core::Outcome::disk_full;
         end.message = fmt::format("{} takes no more ({})", folder.string(), *reason);
-    } else if (auto const full = full_scratch(scratch); full && end.failure != core::Outcome::out_of_memory) {
-        end.failure = core::Outcome::disk_full;
-        end.message = fmt::format("run.scratch = \"{}\" takes no more ({})", scratch, *full);
     } else if (end.signal == SIGXFSZ) {
         end.failure = core::Outcome::disk_full;
         end.message = fmt::format("a file of {} cannot grow ({})", folder.string(), core::reason_of(EFBIG));

@@ -12,8 +12,6 @@ long count_memory_kills();
 /// Finds the cause behind a packing's failure: a full disk leaves the engine silent, lack of memory shows as
 /// a signal, and a simulation that diverged as a wrong number. Adds how far the run had come.
 /// @param memory_kills  count_memory_kills() from before the run
-/// @param scratch       the engine's; while its folder is still as full as the run has made it
-PackingEnd find_cause(PlannedCase const& planned, int packing, PackingEnd end, long memory_kills,
-                      std::string const& scratch);
+PackingEnd find_cause(PlannedCase const& planned, int packing, PackingEnd end, long memory_kills);
 
 }  // namespace vibrotrough::campaign

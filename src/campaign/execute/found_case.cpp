@@ -16,11 +16,10 @@ bool may_go_on(PlannedCase const& planned, store::CaseRecord const& record) {
 
 FoundCase look_at(PlannedCase const& planned) {
     FoundCase found{find_summary(planned)};
-    remove_linked_packings(planned);
     if (found.summary && found.summary->is_from_result) write_summary(planned, found.summary->record);
     if (found.summary && !may_go_on(planned, found.summary->record)) return found;
     std::error_code missing;
-    found.is_damaged = !found.summary && fs::exists(fs::symlink_status(planned.result_file(), missing));
+    found.is_damaged = !found.summary && fs::exists(planned.result_file(), missing);
     found.known = know(planned);
     if (auto const failure = read_failure(planned)) found.attempts = failure->attempts;
     return found;

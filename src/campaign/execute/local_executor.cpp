@@ -6,7 +6,6 @@
 #include "campaign/execute/ranks.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/error.hpp"
-#include "core/own_folder.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -132,7 +131,7 @@ class LocalExecutor : public Executor {
     void start(PackingOrder const& order, int ranks) {
         PlannedCase const& planned = *order.planned;
         write_case_files(planned);
-        core::remove_file(planned.failure_file());  // the file means that the last attempt failed
+        fs::remove(planned.failure_file());  // the file means that the last attempt failed
         running_.push_back({order, ranks, count_memory_kills()});
         auto const place = std::prev(running_.end());
         try {
@@ -160,8 +159,7 @@ class LocalExecutor : public Executor {
             end = {core::Outcome::time_limit,
                    fmt::format("not finished after {:.0f} s", inputs_.settings.time_limit.value_or(0))};
         }
-        end = find_cause(*order.planned, order.packing.number, end, place->memory_kills,
-                         inputs_.engine.scratch);
+        end = find_cause(*order.planned, order.packing.number, end, place->memory_kills);
         EndedPacking result{
             order.id(),        end.failure, end.message, place->run->cycles(), place->run->core_time(),
             place->run->time()};

@@ -1,6 +1,5 @@
 #include "campaign/execute/packing_run.hpp"
 
-#include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -21,18 +20,11 @@
 namespace vibrotrough::campaign {
 namespace {
 
-/// The engine writes into its files by their names, wherever these lead.
-void check_files_of_engine(std::filesystem::path const& folder) {
-    std::error_code missing;
-    for (auto const& entry : std::filesystem::directory_iterator(folder, missing)) {
-        // Of the settled packing, which the engine only reads, several packings may have one file.
-        if (entry.path().filename() == deck::settled_file && !entry.is_symlink()) continue;
-        if (!entry.is_symlink() && entry.is_directory(missing)) {
-            check_files_of_engine(entry.path());
-        } else {
-            core::check_own_file(entry.path());
-        }
-    }
+/// Gives a file a second name, or copies it where the file system knows no hard links.
+void link_or_copy(std::filesystem::path const& from, std::filesystem::path const& to) {
+    std::error_code failure;
+    std::filesystem::create_hard_link(from, to, failure);
+    if (failure) std::filesystem::copy_file(from, to);
 }
 
 PackingEnd interrupted_end() {
@@ -58,7 +50,6 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
                               ? core::read_file(planned.certificate_file(), core::largest_note)
                               : std::string()) {
     engine::make_sole_writer(folder_);
-    bring_back_kept(folder_, engine_.scratch, folder_);
     auto const checkpoint = read_checkpoint(folder_, deck_, planned_.prepared->time.steps_per_cycle);
     if (checkpoint && checkpoint->cycle <= packing_.cycles) {
         cut_outputs(folder_, *checkpoint, planned_.prepared->time.steps_per_cycle);
@@ -114,34 +105,30 @@ void PackingRun::start_on(Settled const& settled) {
         });
         return;
     }
-    // What an earlier run left behind. (The folder itself stays: to make a new one costs more than to look.)
-    remove_run_files(folder_);
+    std::filesystem::remove_all(folder_);  // what an earlier run left behind
     deck::write_deck(deck_, folder_, engine_.ranks);
     // The packing's folder holds its settled packing, so that the deck can be run there by hand.
-    core::link_or_copy(settled.restart, folder_ / deck::settled_file);
+    link_or_copy(settled.restart, folder_ / deck::settled_file);
     has_settled_ = true;
     start_engine({});
 }
 
 void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
-    if (!place_) place_ = std::make_unique<RunPlace>(folder_, engine_.scratch, folder_);
     engine::Launch launch{deck::drive_file, {}};
     if (checkpoint) {
         launch.arguments = {"-var", "start", checkpoint->file,
                             "-var", "done",  std::to_string(checkpoint->cycle)};
         resume(*checkpoint);
         // Perhaps on another number of ranks than before.
-        deck::write_files(deck::for_ranks(deck_.files, engine_.ranks), engine_folder());
+        deck::write_files(deck::for_ranks(deck_.files, engine_.ranks), folder_);
     }
-    check_files_of_engine(engine_folder());
     stop_ = packing_.next_stop(sealed_cycle_);
-    core::replace_file(engine_folder() / deck::control_file, deck::control_until(stop_));
+    core::replace_file(folder_ / deck::control_file, deck::control_until(stop_));
     start_ = std::chrono::steady_clock::now();
     settled_at_ = settled_at_.value_or(start_);
     last_cycle_at_ = earlier_wall_time_;
-    watch_.emplace(folder_);
     process_ = std::make_unique<engine::EngineProcess>(
-        context_, engine_, engine_folder(),
+        context_, engine_, folder_,
         [this](engine::ExitStatus status) {
             if (auto const end = judge(status)) on_end_(*end);
         },
@@ -171,35 +158,23 @@ double PackingRun::core_time() const {
 }
 
 void PackingRun::seal() {
-    auto const cycle = last_checkpoint(engine_folder());
+    auto const cycle = last_checkpoint(folder_);
     if (!cycle || *cycle <= sealed_cycle_) return;
-    seal_checkpoint(engine_folder(), deck_,
+    seal_checkpoint(folder_, deck_,
                     {*cycle, deck::checkpoint_file(*cycle), started_, wall_time(),
                      earlier_core_time_ + (core_time_ > 0 ? core_time_ : process_->core_time())});
     sealed_cycle_ = *cycle;
 }
 
-void PackingRun::seal_and_bring_back() {
-    int const before = sealed_cycle_;
-    seal();
-    if (sealed_cycle_ == before) return;
-    try {
-        place_->bring_back();
-    } catch (core::DiskFullError const&) {
-        // The next checkpoint, or the end of the run, brings all of it.
-    }
-}
-
 void PackingRun::inspect() {
     if (!process_) return;  // the packing is still settling
-    watch_->check();
-    seal_and_bring_back();
+    seal();
     std::error_code missing;
-    auto const size = std::filesystem::file_size(engine_folder() / "cycles.csv", missing);
+    auto const size = std::filesystem::file_size(folder_ / "cycles.csv", missing);
     if (missing || size == seen_size_) return;
     seen_size_ = size;
     try {
-        auto const interim = evaluate::estimate_so_far(*planned_.prepared, engine_folder());
+        auto const interim = evaluate::estimate_so_far(*planned_.prepared, folder_);
         if (interim.cycles != cycles_) last_cycle_at_ = wall_time();
         cycles_ = interim.cycles;
         if (interim.estimate) estimate_ = interim.estimate;
@@ -211,7 +186,7 @@ void PackingRun::inspect() {
 void PackingRun::interrupt(Stop stop) {
     interrupted_ = true;
     if (process_ && stop == Stop::with_checkpoint) {
-        core::replace_file(engine_folder() / deck::control_file, deck::control_at_once());
+        core::replace_file(folder_ / deck::control_file, deck::control_at_once());
     } else if (process_) {
         process_->terminate();
     } else {
@@ -227,9 +202,9 @@ double PackingRun::silent_for() const {
 
 /// Continues a run that has paused at its checkpoint; why it cannot, if so.
 std::optional<PackingEnd> PackingRun::go_on() {
-    seal_and_bring_back();
-    engine::make_sole_writer(engine_folder());
-    auto const checkpoint = read_checkpoint(engine_folder(), deck_, planned_.prepared->time.steps_per_cycle);
+    seal();
+    engine::make_sole_writer(folder_);
+    auto const checkpoint = read_checkpoint(folder_, deck_, planned_.prepared->time.steps_per_cycle);
     if (!checkpoint || checkpoint->cycle != stop_) {
         return PackingEnd{core::Outcome::outputs_incomplete,
                           fmt::format("the engine left no checkpoint after cycle {}", stop_)};
@@ -242,16 +217,10 @@ std::optional<PackingEnd> PackingRun::go_on() {
 std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
     core_time_ = status.core_time;
     if (engine_.watch) engine_.watch->check();
-    watch_->check();
-    engine::RunReport const report = engine::examine_run(engine_folder(), status, engine::Stage::driving);
+    engine::RunReport const report = engine::examine_run(folder_, status, engine::Stage::driving);
     bool const is_over = interrupted_ || report.failure || stop_ >= packing_.cycles;
     // The policy may want more cycles of this packing, which then continue from its end.
     if (is_over && !report.failure) seal();
-    try {
-        if (is_over) place_->bring_back();
-    } catch (core::DiskFullError const& error) {
-        return PackingEnd{core::Outcome::disk_full, error.what()};
-    }
     if (interrupted_) return interrupted_end();
     if (report.failure) return PackingEnd{report.failure, report.message, report.signal};
     return is_over ? conclude(report.last_step) : go_on();

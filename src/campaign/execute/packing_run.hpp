@@ -1,12 +1,10 @@
 #pragma once
 
-#include "campaign/execute/run_place.hpp"
 #include "campaign/execute/settled_packings.hpp"
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/plan.hpp"
 #include "deck/deck.hpp"
 #include "engine/engine.hpp"
-#include "engine/folder_watch.hpp"
 #include "evaluate/packing.hpp"
 
 #include <chrono>
@@ -78,8 +76,6 @@ class PackingRun {
     PackingEnd conclude(long last_step);
     void start_engine(std::optional<Checkpoint> const& checkpoint);
     void seal();
-    void seal_and_bring_back();
-    std::filesystem::path const& engine_folder() const { return place_ ? place_->folder() : folder_; }
     double wall_time() const;
     std::optional<PackingEnd> judge(engine::ExitStatus status);
     std::optional<PackingEnd> go_on();
@@ -110,8 +106,6 @@ class PackingRun {
     int sealed_cycle_ = 0;
     bool interrupted_ = false;
     std::uintmax_t seen_size_ = 0;
-    std::optional<engine::FolderWatch> watch_;  ///< since the engine was started
-    std::unique_ptr<RunPlace> place_;           ///< since the engine was first started
     std::unique_ptr<engine::EngineProcess> process_;
     std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
 };

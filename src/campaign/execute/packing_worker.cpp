@@ -6,7 +6,6 @@
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/file_lock.hpp"
 #include "core/error.hpp"
-#include "core/own_folder.hpp"
 #include "engine/binary_watch.hpp"
 #include "engine/certificate_cache.hpp"
 #include "engine/stop_signals.hpp"
@@ -125,7 +124,6 @@ engine::Engine same_engine(std::filesystem::path const& folder) {
                         "'vibrotrough run' again, which tests it",
                         planned.program.string()));
     }
-    here.scratch = planned.scratch;
     here.watch = std::make_shared<engine::BinaryWatch const>(identity);
     return here;
 }
@@ -164,7 +162,6 @@ WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& i
         deadline = std::chrono::steady_clock::now() +
                    std::chrono::milliseconds(static_cast<long>(*limits.time_limit * 1000));
     }
-    core::OwnFolder const own(campaign_folder);
     engine::Engine engine = same_engine(campaign_folder);
     engine.ranks = limits.ranks;
     PlannedCase const planned = open_case(campaign_folder, id.case_id, engine.version);
@@ -188,7 +185,7 @@ WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& i
         evaluate::remove_marker(planned.packing_folder(id.packing));  // of a run with fewer cycles
         long const memory_kills = count_memory_kills();
         Attempt running(engine, campaign_folder, planned, *packing, deadline);
-        PackingEnd const end = find_cause(planned, id.packing, running.run(), memory_kills, engine.scratch);
+        PackingEnd const end = find_cause(planned, id.packing, running.run(), memory_kills);
         if (!end.failure) {
             evaluated.insert_or_assign(id.packing, running.take_evaluated());
             attempt = -1;

@@ -91,7 +91,6 @@ struct Scheduler {
     std::optional<double> (*count_core_time)(std::vector<SubmittedArray>& arrays) = nullptr;
 };
 
-extern Scheduler const pbs;    ///< PBS Professional and OpenPBS
 extern Scheduler const slurm;  ///< Slurm
 
 }  // namespace vibrotrough::campaign

@@ -35,24 +35,16 @@ bool CallAnswer::complains_of(std::vector<std::string_view> const& texts) const 
                                [&](std::string_view text) { return errors.find(text) != std::string::npos; });
 }
 
-bool CallAnswer::complains_only_of(std::vector<std::string_view> const& texts) const {
-    auto const lines = rows_of(errors, '\n');
-    return !lines.empty() && std::ranges::all_of(lines, [&](std::vector<std::string> const& line) {
-        return line.empty() || CallAnswer{0, "", line.front()}.complains_of(texts);
-    });
-}
-
 std::string CallAnswer::words() const {
     std::string const& text = errors.empty() ? output : errors;
-    return core::printable(text.substr(0, text.find('\n')), 300);
+    return text.substr(0, text.find('\n')).substr(0, 300);
 }
 
 bool has_command(std::string const& name) {
     return !bp::search_path(name).empty();
 }
 
-CallAnswer call_scheduler(std::string_view title, std::vector<std::string> words,
-                          std::filesystem::path const& folder) {
+CallAnswer call_scheduler(std::string_view title, std::vector<std::string> words) {
     auto const program = bp::search_path(words.front());
     if (program.empty()) {
         throw core::MissingError(fmt::format(
@@ -65,10 +57,10 @@ CallAnswer call_scheduler(std::string_view title, std::vector<std::string> words
         boost::asio::io_context context;
         std::future<std::string> output, errors;
         bp::child child(bp::search_path("timeout"), bp::args(words), bp::std_in<bp::null, bp::std_out> output,
-                        bp::std_err > errors, bp::start_dir(folder.empty() ? "." : folder.string()), context);
+                        bp::std_err > errors, context);
         context.run();
         child.wait();
-        return {child.exit_code(), output.get(), errors.get()};
+        return {child.exit_code(), core::harmless(output.get()), core::harmless(errors.get())};
     } catch (bp::process_error const& error) {
         throw core::MissingError(fmt::format("cannot start {} ({})", words[1], error.code().message()));
     }

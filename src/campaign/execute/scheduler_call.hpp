@@ -4,7 +4,6 @@
 #include "core/error.hpp"
 
 #include <charconv>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,8 +20,6 @@ struct CallAnswer {
 
     /// Whether its standard error contains one of the texts.
     bool complains_of(std::vector<std::string_view> const& texts) const;
-    /// Whether it says something on standard error, and each line contains one of the texts.
-    bool complains_only_of(std::vector<std::string_view> const& texts) const;
     /// Its first line of errors or, where it has none, of output, made printable.
     std::string words() const;
 };
@@ -32,10 +29,8 @@ bool has_command(std::string const& name);
 
 /// Runs a command of a scheduler to its end, a minute at most. No shell reads the words.
 /// @param title   of the scheduler, for the message
-/// @param folder  in which the command starts; empty: this process's own
 /// @throws core::MissingError when there is no such command here
-CallAnswer call_scheduler(std::string_view title, std::vector<std::string> words,
-                          std::filesystem::path const& folder = {});
+CallAnswer call_scheduler(std::string_view title, std::vector<std::string> words);
 
 /// The same for a question that must be answered.
 /// @throws core::MissingError when the command fails, because the scheduler does not answer

@@ -1,16 +1,13 @@
 #include "campaign/execute/settled_packings.hpp"
 
-#include "campaign/execute/run_place.hpp"
 #include "campaign/state/file_lock.hpp"
 #include "campaign/state/notes.hpp"
-#include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/time.hpp"
 #include "deck/commands.hpp"
 #include "engine/binary_watch.hpp"
-#include "engine/folder_watch.hpp"
 #include "engine/run_report.hpp"
 #include "engine/sole_writer.hpp"
 
@@ -73,19 +70,17 @@ Settled judge(fs::path const& folder, engine::ExitStatus status, double weight) 
 /// Puts the finished folder in its place, unless another driver was faster. What lies there and is whole is
 /// never taken away, because another process may use it already.
 void publish(fs::path const& made, fs::path const& place, deck::Deck const& deck) {
-    try {
-        return core::rename_entry(made, place);  // fails unless the place is free
-    } catch (core::MissingError const&) {
+    std::error_code taken;
+    fs::rename(made, place, taken);  // fails unless the place is free
+    if (!taken) return;
+    if (!is_whole(place, deck)) {
+        fs::remove_all(place);
+        fs::rename(made, place);
     }
-    try {
-        if (!is_whole(place, deck)) replace_run(made, place, seal_file);
-    } catch (core::MissingError const&) {
-        if (!is_whole(place, deck)) throw;
-    }
-    core::remove_tree(made);
+    fs::remove_all(made);
 }
 
-/// The file that whoever settles a packing in this folder holds locked, wherever the engine works.
+/// The file that whoever settles a packing in this folder holds locked.
 fs::path lock_of(fs::path const& folder) {
     return folder.native() + ".lock";
 }
@@ -100,8 +95,6 @@ struct SettledPackings::Settling {
     double weight = 0;
     std::vector<Ready> waiting = {};
     bool interrupted = false;
-    std::optional<engine::FolderWatch> watch = {};
-    std::unique_ptr<RunPlace> place = {};
     std::unique_ptr<engine::EngineProcess> process = {};
 };
 
@@ -132,18 +125,10 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
     settling->deck = deck;
     settling->weight = weight;
     settling->waiting.push_back(std::move(ready));
-    core::remove_tree(settling->folder);
+    fs::remove_all(settling->folder);
     deck::write_files(deck::for_ranks(deck.settle_files, engine_.ranks), settling->folder);
-    settling->watch.emplace(settling->folder);
-    if (bring_back_kept(settling->folder, engine_.scratch, folder_ / key)) {
-        settling_.emplace(key, std::move(settling));
-        boost::asio::post(context_, [this, key] { ended(key, {}); });
-        return;
-    }
-    settling->place = std::make_unique<RunPlace>(settling->folder, engine_.scratch, folder_ / key);
     settling->process = std::make_unique<engine::EngineProcess>(
-        context_, engine_, settling->place->folder(),
-        [this, key](engine::ExitStatus status) { ended(key, status); },
+        context_, engine_, settling->folder, [this, key](engine::ExitStatus status) { ended(key, status); },
         engine::Launch{deck::settle_file, {}});
     settling_.emplace(key, std::move(settling));
 }
@@ -173,8 +158,8 @@ void SettledPackings::remove_leftovers() {
         // A task of a cluster may be settling there now, or what the engine of a killed one had started.
         auto const lock = FileLock::take(lock_of(leftover));
         if (!lock || engine::has_writer(leftover)) continue;
-        core::remove_tree(leftover);
-        core::remove_file(lock_of(leftover));
+        fs::remove_all(leftover);
+        fs::remove(lock_of(leftover));
     }
 }
 
@@ -192,9 +177,7 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
     boost::asio::post(context_, [settling] {});  // the process is in the middle of its own call
     Settled settled{core::Outcome::interrupted, "the settling was interrupted"};
     if (engine_.watch && !settling->interrupted) engine_.watch->check();
-    settling->watch->check();
     try {
-        if (settling->place && !settling->interrupted) settling->place->bring_back();
         if (!settling->interrupted) settled = judge(settling->folder, status, settling->weight);
     } catch (core::DiskFullError const& error) {
         settled = {core::Outcome::disk_full, error.what()};
@@ -203,14 +186,15 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
         publish(settling->folder, folder_ / key, settling->deck);
         settled.restart = folder_ / key / deck::settled_file;
     } else if (settling->interrupted || settled.failure == core::Outcome::disk_full) {
-        core::remove_tree(settling->folder);
+        fs::remove_all(settling->folder);
     } else {
         // Kept for whoever wants to see why, in place of an earlier failure.
         fs::path const kept = folder_ / (key + ".failed");
-        replace_run(settling->folder, kept, engine::output_file);
+        fs::remove_all(kept);
+        fs::rename(settling->folder, kept);
         settled.message += fmt::format(" (see {})", (kept / engine::output_file).string());
     }
-    core::remove_file(lock_of(settling->folder));
+    fs::remove(lock_of(settling->folder));
     for (Ready const& ready : settling->waiting) ready(settled);
 }
 

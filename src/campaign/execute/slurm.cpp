@@ -49,7 +49,7 @@ void read(std::string const& output, std::map<long, std::string> const& names, T
         if (!job || !index || !names.contains(*job)) continue;
         // "CANCELLED by 0": the first word is the state.
         std::string const state = row[1].substr(0, row[1].find(' '));
-        std::string const reason = row.size() > 2 ? core::printable(row[2], 60) : "";
+        std::string const reason = row.size() > 2 ? row[2] : "";
         reports.insert({{names.at(*job), *index}, report_of(state, reason, row[0])});
     }
 }

@@ -5,7 +5,6 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
-#include "core/text.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
 #include <algorithm>
@@ -23,33 +22,6 @@ namespace fs = std::filesystem;
 /// What is frozen in a folder: names of files and their contents.
 using FrozenFiles = std::map<std::string, std::string>;
 
-/// Version 0.1 of this program did not keep the digests of what it froze, and its cases have other ids.
-void refuse_version_0_1(EngineNote const& facts, fs::path const& folder) {
-    if (facts.frozen) return;
-    throw core::InputError(fmt::format(
-        "{} is a campaign of version 0.1 of this program, which this version does not read any more; "
-        "read it with version 0.1, or run its campaign file in another folder",
-        folder.string()));
-}
-
-/// engine.json, if this program wrote it; nothing when there is none.
-/// @throws core::InputError when something else has this name
-std::optional<EngineNote> read_frozen_facts(fs::path const& folder) {
-    fs::path const path = folder / "engine.json";
-    if (!fs::exists(fs::symlink_status(path))) return {};
-    EngineNote facts;
-    try {
-        facts = parse_engine(core::read_file(path, core::largest_note));
-    } catch (core::Error const&) {
-        throw core::InputError(
-            fmt::format("{} is not a file of this program, or is damaged, and would be replaced; move it "
-                        "away, or choose another folder with --output",
-                        path.string()));
-    }
-    refuse_version_0_1(facts, folder);
-    return facts;
-}
-
 /// engine.json of a campaign's folder. @throws core::InputError when it is damaged
 EngineNote read_facts(fs::path const& folder) {
     fs::path const path = folder / "engine.json";
@@ -62,73 +34,36 @@ EngineNote read_facts(fs::path const& folder) {
     }
 }
 
-/// The content of a file that is about to be frozen; none when there is no such file.
-std::optional<std::string> content_before(fs::path const& path) {
-    if (!fs::exists(fs::symlink_status(path))) return {};
-    try {
-        return core::read_file(path, core::largest_note);
-    } catch (core::MissingError const& error) {
-        throw core::InputError(
-            fmt::format("{}, and it would be replaced; move it away, or choose another folder with --output",
-                        error.what()));
-    }
-}
-
-/// Refuses to replace what a person wrote: a file that is neither what was frozen nor what will be.
-void refuse_edited_files(fs::path const& folder, FrozenFiles const& files,
-                         std::optional<EngineNote> const& facts) {
-    for (auto const& [name, content] : files) {
-        auto const before = content_before(folder / name);
-        if (!before || *before == content) continue;
-        if (facts && core::note::knows(*facts->frozen, name, *before)) continue;
-        fs::path const path = folder / name;
-        throw core::InputError(fmt::format(
-            "{} {}, and this run would replace it; run {} itself to go on with it, move it away, or choose "
-            "another "
-            "folder with --output",
-            path.string(), facts ? "was changed since it was frozen here" : "is not a file of this program",
-            name == "campaign.toml" ? path.string() : "a campaign that names it"));
-    }
-}
-
 /// Refuses a folder that holds somebody else's files under the names of those that a run writes.
 /// (friction.json and numerics.json may be there before the campaign: friction-test and convergence write
 /// them.)
-void refuse_foreign_folder(fs::path const& folder, std::optional<EngineNote> const& facts,
-                           FrozenFiles const& files) {
-    bool const is_own = facts || content_before(folder / "campaign.toml") == files.at("campaign.toml");
-    if (is_own) return;
-    for (char const* name : {"campaign.h5", "certificate.json", "cases", "packings"}) {
-        std::error_code missing;
-        fs::path const path = folder / name;
-        if (!fs::exists(fs::symlink_status(path)) || fs::is_empty(path, missing)) continue;
+void refuse_foreign_folder(fs::path const& folder, FrozenFiles const& files) {
+    if (fs::exists(folder / "engine.json")) {
+        read_facts(folder);
+        return;
+    }
+    auto const refuse = [&](fs::path const& path) {
         throw core::InputError(
             fmt::format("{} is there already, but {} is not the folder of a campaign; move it away, or "
-                        "choose another folder "
-                        "with --output",
+                        "choose another folder with --output",
                         path.string(), folder.string()));
+    };
+    for (auto const& [name, content] : files) {
+        if (fs::exists(folder / name) && core::read_file(folder / name) != content) refuse(folder / name);
+    }
+    if (fs::exists(folder / "campaign.toml")) return;
+    for (char const* name : {"campaign.h5", "certificate.json", "cases", "packings"}) {
+        if (fs::exists(folder / name) && !fs::is_empty(folder / name)) refuse(folder / name);
     }
 }
 
-/// Writes engine.json and the files whose contents have changed. While they are written, engine.json knows
-/// the digests of the old and of the new contents, so that after a crash none of them seems to be edited.
-void write_frozen(fs::path const& folder, EngineNote facts, FrozenFiles const& files) {
-    core::note::Digests both, last;
-    FrozenFiles changed;
+/// Writes engine.json and the files whose contents have changed.
+void write_frozen(fs::path const& folder, EngineNote const& facts, FrozenFiles const& files) {
+    core::write_file_atomically(folder / "engine.json", to_json(facts));
     for (auto const& [name, content] : files) {
-        last[name] = both[name] = {core::sha256_hex(content)};
-        auto const before = content_before(folder / name);
-        if (before == content) continue;
-        if (before) both[name].push_back(core::sha256_hex(*before));
-        changed[name] = content;
+        if (!fs::exists(folder / name) || core::read_file(folder / name) != content)
+            core::write_file_atomically(folder / name, content);
     }
-    auto const write_facts = [&](core::note::Digests const& frozen) {
-        facts.frozen = frozen;
-        core::write_file_atomically(folder / "engine.json", to_json(facts));
-    };
-    write_facts(both);
-    for (auto const& [name, content] : changed) core::write_file_atomically(folder / name, content);
-    if (both != last) write_facts(last);
 }
 
 /// The names of the templates with which the decks of a plan are made; empty: the program's own.
@@ -152,13 +87,14 @@ void use_frozen_templates(fs::path const& folder, EngineNote const& facts,
 }
 
 /// An edited campaign may continue in its folder; a different one would hide the cases of the first.
-void refuse_other_campaign(Plan const& plan, bool is_own) {
+void refuse_other_campaign(Plan const& plan) {
     fs::path const frozen = plan.folder / "campaign.toml";
+    if (!fs::exists(plan.folder / "engine.json") || !fs::exists(frozen)) return;
     std::string name;
     try {
-        if (is_own && fs::is_regular_file(frozen)) name = scenario::read_campaign(frozen).name;
+        name = scenario::read_campaign(frozen).name;
     } catch (core::InputError const&) {
-        return;  // of an older program, or damaged and then refused as an edited file
+        return;  // of an older program, or damaged
     }
     if (name.empty() || name == plan.name) return;
     throw core::InputError(
@@ -202,41 +138,18 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
         for (scenario::NamedFile const& file : named_files(planned.scenario()))
             files[file.name] = file.content;
     }
-    auto const before = read_frozen_facts(plan.folder);
-    refuse_other_campaign(plan, before.has_value());
-    refuse_foreign_folder(plan.folder, before, files);
-    refuse_edited_files(plan.folder, files, before);
-
+    refuse_other_campaign(plan);
+    refuse_foreign_folder(plan.folder, files);
     write_frozen(plan.folder,
-                 {engine.program.string(),
-                  engine.version,
-                  engine.binary_sha256,
-                  engine.scratch,
-                  template_names(plan),
-                  {}},
+                 {engine.program.string(), engine.version, engine.binary_sha256, template_names(plan)},
                  files);
     fs::path const certificate = plan.folder / "certificate.json";
     if (engine.certificate.empty()) {
-        core::remove_file(certificate);  // it belongs to another engine
+        fs::remove(certificate);  // it belongs to another engine
     } else {
         core::write_file_atomically(certificate, engine.certificate);
     }
     core::make_folder(plan.folder / "cases");
-}
-
-std::vector<std::string> edited_files(fs::path const& folder) {
-    std::vector<std::string> names;
-    auto const facts = read_frozen_facts(folder);
-    if (!facts) return names;
-    for (auto const& [name, digests] : *facts->frozen) {
-        try {
-            if (core::note::knows(*facts->frozen, name, core::read_file(folder / name, core::largest_note)))
-                continue;
-        } catch (core::MissingError const&) {
-        }
-        names.push_back(core::harmless(name));
-    }
-    return names;
 }
 
 scenario::Campaign read_frozen_campaign(fs::path const& folder) {
@@ -250,24 +163,18 @@ scenario::Campaign read_frozen_campaign(fs::path const& folder) {
     }
     scenario::Campaign campaign = scenario::read_campaign(folder / "campaign.toml");
     EngineNote const facts = read_facts(folder);
-    refuse_version_0_1(facts, folder);
     use_frozen_templates(folder, facts, campaign.cases);
     return campaign;
 }
 
 Plan open_plan(fs::path const& folder) {
-    scenario::Campaign const campaign = read_frozen_campaign(folder);
-    auto own = std::make_shared<core::OwnFolder const>(folder);
-    Plan plan = make_plan(campaign, folder, read_engine(folder).version);
-    plan.own = std::move(own);
-    return plan;
+    return make_plan(read_frozen_campaign(folder), folder, read_engine(folder).version);
 }
 
 engine::Engine read_engine(fs::path const& folder) {
     EngineNote const facts = read_facts(folder);
     engine::Engine engine{facts.program, facts.version};
     engine.binary_sha256 = facts.binary_sha256;
-    engine.scratch = facts.scratch;
     return engine;
 }
 
@@ -278,9 +185,8 @@ bool is_case_id(std::string_view text) {
 PlannedCase open_case(fs::path const& folder, std::string const& id, std::string const& engine_version) {
     fs::path const file = folder / "cases" / id / "scenario.toml";
     if (!is_case_id(id) || !fs::is_regular_file(file))
-        throw core::InputError(
-            fmt::format("there is no case '{}' in {}; give the folder that 'vibrotrough run' made",
-                        core::printable(id, 60), folder.string()));
+        throw core::InputError(fmt::format(
+            "there is no case '{}' in {}; give the folder that 'vibrotrough run' made", id, folder.string()));
     scenario::Campaign const frozen = scenario::read_campaign(file);
     if (frozen.cases.size() == 1) {
         PlannedCase planned = plan_case(frozen.cases.front(), folder, engine_version);

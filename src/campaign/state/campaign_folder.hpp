@@ -35,9 +35,6 @@ Plan open_plan(std::filesystem::path const& folder);
 /// write_case_files() of all cases, several at the same time where the file system is slow.
 void write_case_files(std::vector<PlannedCase const*> cases);
 
-/// Names of the frozen files that are not what `freeze` wrote any more, or cannot be read.
-std::vector<std::string> edited_files(std::filesystem::path const& folder);
-
 /// The campaign file that is frozen in a folder. @throws core::InputError as open_plan
 scenario::Campaign read_frozen_campaign(std::filesystem::path const& folder);
 

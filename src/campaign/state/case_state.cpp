@@ -67,19 +67,10 @@ std::vector<int> started_packings(PlannedCase const& planned) {
     std::vector<int> numbers;
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(planned.folder, missing)) {
-        if (entry.is_symlink()) continue;  // leads to what is not this campaign's
         if (auto const number = packing_number(entry.path().filename().string())) numbers.push_back(*number);
     }
     std::ranges::sort(numbers);
     return numbers;
-}
-
-void remove_linked_packings(PlannedCase const& planned) {
-    std::error_code missing;
-    for (auto const& entry : fs::directory_iterator(planned.folder, missing)) {
-        if (entry.is_symlink() && packing_number(entry.path().filename().string()))
-            core::remove_file(entry.path());
-    }
 }
 
 std::vector<int> finished_packings(PlannedCase const& planned) {

@@ -26,9 +26,6 @@ std::optional<store::CaseRecord> read_whole_result(PlannedCase const& planned);
 /// Numbers of the packings that have a folder, in order.
 std::vector<int> started_packings(PlannedCase const& planned);
 
-/// Removes symbolic links in place of packings' folders; what they lead to stays.
-void remove_linked_packings(PlannedCase const& planned);
-
 /// Numbers of the packings that are finished (marker and files belong together), in order.
 std::vector<int> finished_packings(PlannedCase const& planned);
 

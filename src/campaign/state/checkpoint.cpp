@@ -125,7 +125,7 @@ void seal_checkpoint(fs::path const& folder, deck::Deck const& deck, Checkpoint 
     core::write_file_atomically(folder / checkpoint_seal, seal.dump(2) + "\n");
     for (fs::path const& file : restart_files(folder)) {
         // The engine may be writing the next one.
-        if (*checkpoint_cycle(file.filename().string()) < checkpoint.cycle) core::remove_file(file);
+        if (*checkpoint_cycle(file.filename().string()) < checkpoint.cycle) fs::remove(file);
     }
 }
 
@@ -160,7 +160,7 @@ void cut_outputs(fs::path const& folder, Checkpoint const& checkpoint, int steps
     // would be sealed and this one removed before the engine has read it.
     core::write_file_atomically(folder / deck::checkpoint_list, fmt::format("{}\n", checkpoint.cycle));
     for (fs::path const& file : restart_files(folder)) {
-        if (*checkpoint_cycle(file.filename().string()) > checkpoint.cycle) core::remove_file(file);
+        if (*checkpoint_cycle(file.filename().string()) > checkpoint.cycle) fs::remove(file);
     }
     if (!fs::is_directory(folder / "dump")) return;
     std::vector<fs::path> later;
@@ -171,13 +171,13 @@ void cut_outputs(fs::path const& folder, Checkpoint const& checkpoint, int steps
             if (frame && *frame > step) later.push_back(entry.path());
         }
     }
-    for (fs::path const& frame : later) core::remove_file(frame);
+    for (fs::path const& frame : later) fs::remove(frame);
 }
 
 void remove_checkpoints(fs::path const& folder) {
-    for (fs::path const& file : restart_files(folder)) core::remove_file(file);
-    core::remove_file(folder / checkpoint_seal);
-    core::remove_file(folder / deck::checkpoint_list);
+    for (fs::path const& file : restart_files(folder)) fs::remove(file);
+    fs::remove(folder / checkpoint_seal);
+    fs::remove(folder / deck::checkpoint_list);
 }
 
 }  // namespace vibrotrough::campaign

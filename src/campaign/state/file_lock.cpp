@@ -1,37 +1,23 @@
 #include "campaign/state/file_lock.hpp"
 
 #include "core/error.hpp"
-#include "core/open_file.hpp"
-#include "core/own_folder.hpp"
+#include "core/limits.hpp"
 
 #include <cerrno>
 #include <cstring>
-#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace vibrotrough::campaign {
 namespace {
 
-bool is_regular(int descriptor) {
-    struct stat status {};
-    return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
-}
-
-int open_file(std::filesystem::path const& path) {
+core::Descriptor open_file(std::filesystem::path const& path) {
     // Close-on-exec: the engines must not inherit the lock and hold it after the driver.
-    // O_NONBLOCK: what is in its place may be a pipe, which would wait for a reader.
-    int const descriptor = core::ParentFolder(path).open(O_RDWR | O_CREAT | O_NONBLOCK);
-    if (descriptor < 0) {
-        throw core::MissingError(fmt::format("cannot write in {} ({}); choose another folder with --output",
-                                             path.parent_path().string(), core::reason_of_errno()));
-    }
-    if (is_regular(descriptor)) return descriptor;
-    ::close(descriptor);
-    throw core::MissingError(fmt::format("{} is not a file; remove it", path.string()));
+    core::Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    if (file.is_open()) return file;
+    throw core::MissingError(fmt::format("cannot write in {} ({}); choose another folder with --output",
+                                         path.parent_path().string(), core::reason_of(errno)));
 }
 
 /// A write lock on the whole file, bound to the open file as flock() is, but one that can be asked for
@@ -48,7 +34,7 @@ struct flock whole_file() {
 std::optional<FileLock> FileLock::take(std::filesystem::path const& path) {
     FileLock mine(open_file(path));
     struct flock lock = whole_file();
-    if (::fcntl(mine.descriptor_, F_OFD_SETLK, &lock) == 0) return mine;
+    if (::fcntl(mine.file_.number(), F_OFD_SETLK, &lock) == 0) return mine;
     if (errno == EAGAIN || errno == EACCES) return {};
     throw core::MissingError(fmt::format("cannot lock {} ({}); choose a file system that knows locks",
                                          path.string(), std::strerror(errno)));
@@ -57,7 +43,7 @@ std::optional<FileLock> FileLock::take(std::filesystem::path const& path) {
 FileLock FileLock::wait_for(std::filesystem::path const& path) {
     FileLock mine(open_file(path));
     struct flock lock = whole_file();
-    while (::fcntl(mine.descriptor_, F_OFD_SETLKW, &lock) != 0) {
+    while (::fcntl(mine.file_.number(), F_OFD_SETLKW, &lock) != 0) {
         if (errno == EINTR) continue;
         throw core::MissingError(fmt::format("cannot lock {} ({}); choose a file system that knows locks",
                                              path.string(), std::strerror(errno)));
@@ -66,18 +52,9 @@ FileLock FileLock::wait_for(std::filesystem::path const& path) {
 }
 
 bool FileLock::is_held(std::filesystem::path const& path) {
-    int const descriptor = core::open_to_read(path, core::Kinds::regular);
-    if (descriptor < 0) return false;
+    core::Descriptor const file = core::open_to_read(path, core::Kinds::regular);
     struct flock lock = whole_file();
-    bool const held = ::fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
-    ::close(descriptor);
-    return held;
+    return file.is_open() && ::fcntl(file.number(), F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
 }
-
-FileLock::~FileLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 }  // namespace vibrotrough::campaign

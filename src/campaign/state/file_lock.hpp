@@ -1,7 +1,10 @@
 #pragma once
 
+#include "core/open_file.hpp"
+
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 namespace vibrotrough::campaign {
 
@@ -20,15 +23,10 @@ class FileLock {
     /// Whether somebody has it now; asking does not disturb.
     static bool is_held(std::filesystem::path const& path);
 
-    ~FileLock();
-    /// Takes over the lock of another object.
-    FileLock(FileLock&& other) noexcept;
-    FileLock& operator=(FileLock&&) = delete;
-
   private:
-    explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+    explicit FileLock(core::Descriptor file) : file_(std::move(file)) {}
 
-    int descriptor_;
+    core::Descriptor file_;
 };
 
 }  // namespace vibrotrough::campaign

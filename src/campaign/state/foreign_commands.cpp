@@ -1,7 +1,6 @@
 #include "campaign/state/foreign_commands.hpp"
 
 #include "core/error.hpp"
-#include "core/text.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -42,7 +41,7 @@ void refuse_outside_paths(std::string const& source, scenario::EnginePlan const&
             "{}: a command in {} names '{}', which leads out of the deck's folder; what lies there "
             "is not part of the case, and a case would stay finished when it changes; write "
             "commands and numbers into {} itself",
-            source, file->name, core::printable(path, 60), file->name));
+            source, file->name, path, file->name));
     }
 }
 

@@ -1,15 +1,12 @@
 #include "campaign/state/left_aside.hpp"
 
-#include "campaign/state/campaign_folder.hpp"
-#include "core/shell.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace vibrotrough::campaign {
 
 LeftAside find_left_aside(Plan const& plan, std::vector<CaseOverview> const& cases) {
-    LeftAside left{{}, {}, edited_files(plan.folder), count_left_aside(plan)};
+    LeftAside left{{}, {}, count_left_aside(plan)};
     for (CaseOverview const& one : cases) {
         if (one.fault.empty()) continue;
         if (left.faulty.empty()) left.first_fault = one.fault;
@@ -25,18 +22,10 @@ std::string describe(LeftAside const& left, Plan const& plan) {
                                     left.faulty.size() == 1 ? "" : "the first is ", left.faulty.front()->id,
                                     left.first_fault));
     }
-    std::string const others =
-        fmt::format("{} case folder{} that belong{} to no case of the campaign file", left.other_cases,
-                    left.other_cases == 1 ? "" : "s", left.other_cases == 1 ? "s" : "");
-    if (!left.edited_files.empty()) {
-        std::string const file = core::shell_word(plan.folder / "campaign.toml");
-        parts.push_back(fmt::format(
-            "whatever {} said before it was changed in the campaign's folder{} ('vibrotrough run {} --output "
-            "{}' goes on with what it says now)",
-            fmt::join(left.edited_files, ", "), left.other_cases > 0 ? ", with " + others : "", file,
-            core::shell_word(plan.folder)));
-    } else if (left.other_cases > 0) {
-        parts.push_back(others);
+    if (left.other_cases > 0) {
+        parts.push_back(fmt::format("{} case folder{} that belong{} to no case of the campaign file",
+                                    left.other_cases, left.other_cases == 1 ? "" : "s",
+                                    left.other_cases == 1 ? "s" : ""));
     }
     return fmt::format("{}", fmt::join(parts, "; "));
 }

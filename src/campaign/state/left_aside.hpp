@@ -11,12 +11,7 @@ namespace vibrotrough::campaign {
 struct LeftAside {
     std::vector<PlannedCase const*> faulty = {};  ///< cases with files that cannot be used
     std::string first_fault = {};                 ///< why, of the first of them
-    std::vector<std::string> edited_files = {};   ///< frozen files of the campaign that were changed
     std::size_t other_cases = 0;                  ///< case folders that belong to no case of the plan
-
-    /// Whether the person should know before anything is published: a file cannot be used or was changed.
-    /// Cases of an earlier version of the campaign file are left aside on purpose.
-    bool is_incomplete() const { return !faulty.empty() || !edited_files.empty(); }
 };
 
 /// Looks for it. @param cases  what survey() found of the plan

@@ -17,8 +17,8 @@ core::Outcome failed_outcome(Json const& json) {
 }
 
 evaluate::LayerFriction friction_of(Json const& one) {
-    evaluate::LayerFriction test{note::line(one, "layer"),
-                                 note::line(one, "case"),
+    evaluate::LayerFriction test{note::text(one, "layer"),
+                                 note::text(one, "case"),
                                  note::number(one, "grain_friction", 0),
                                  note::number(one, "machine_number", 0),
                                  note::known_number(one, "max_relative_displacement"),
@@ -27,8 +27,8 @@ evaluate::LayerFriction friction_of(Json const& one) {
                                  note::known_number(one, "friction", 0),
                                  note::known_number(one, "friction_low", 0),
                                  note::known_number(one, "friction_high", 0),
-                                 note::line(one, "mode"),
-                                 note::line(one, "message")};
+                                 note::text(one, "mode"),
+                                 note::text(one, "message")};
     if (test.friction && test.low && test.high &&
         !(*test.low <= *test.friction && *test.friction <= *test.high))
         throw note::Fault("'friction' lies outside of its own interval");
@@ -39,14 +39,14 @@ evaluate::LayerFriction friction_of(Json const& one) {
 
 Failure parse_failure(std::string_view text) {
     Json const json = note::parse(text);
-    return {failed_outcome(json), note::line(json, "message"), note::count(json, "packing", 1),
+    return {failed_outcome(json), note::text(json, "message"), note::count(json, "packing", 1),
             note::count(json, "attempts", 1)};
 }
 
 CheckpointSeal parse_checkpoint(std::string_view text) {
     Json const json = note::parse(text);
     double const wall_time = note::number(json, "wall_time", 0);
-    return {{note::count(json, "cycle", 1), note::text(json, "file"), note::line(json, "started"), wall_time,
+    return {{note::count(json, "cycle", 1), note::text(json, "file"), note::text(json, "started"), wall_time,
              json.contains("core_time") ? note::number(json, "core_time", 0) : wall_time},
             note::text(json, "restart_sha256"),
             note::text(json, "commands_sha256")};
@@ -68,31 +68,26 @@ BatchNote parse_batch(std::string_view text) {
 
 LostTask parse_lost_task(std::string_view text) {
     Json const json = note::parse(text);
-    return {failed_outcome(json), note::line(json, "message")};
+    return {failed_outcome(json), note::text(json, "message")};
 }
 
 EngineNote parse_engine(std::string_view text) {
     Json const json = note::parse(text);
     EngineNote engine{core::bytes_of_utf8(note::text(json, "program")),
-                      note::line(json, "version"),
+                      note::text(json, "version"),
                       note::text_if_any(json, "binary_sha256"),
-                      note::text_if_any(json, "scratch"),
-                      {},
                       {}};
     if (json.contains("templates")) engine.templates = note::texts(json, "templates");
     for (std::string const& name : engine.templates) {
         if (!scenario::is_template_name(name)) throw note::Fault("'templates' names other files");
     }
-    if (json.contains("frozen")) engine.frozen = note::digests(json, "frozen");
     return engine;
 }
 
 std::string to_json(EngineNote const& note) {
     Json json{{"program", core::utf8_of_bytes(note.program)}, {"version", note.version}};
     if (!note.binary_sha256.empty()) json["binary_sha256"] = note.binary_sha256;
-    if (!note.scratch.empty()) json["scratch"] = note.scratch;
     if (!note.templates.empty()) json["templates"] = note.templates;
-    if (note.frozen) json["frozen"] = *note.frozen;
     return json.dump(2) + "\n";
 }
 

@@ -64,10 +64,7 @@ struct EngineNote {
     std::string program;                 ///< bytes of the path
     std::string version;                 ///< as the engine says it
     std::string binary_sha256;           ///< empty when it is not known
-    std::string scratch;                 ///< where the engine works; empty: in the campaign's folder
     std::vector<std::string> templates;  ///< names of the deck's templates; empty: the program's own
-    /// The digests that each frozen file may have; none in a folder of version 0.1.
-    std::optional<core::note::Digests> frozen;
 };
 
 /// engine.json

@@ -30,7 +30,7 @@ std::vector<std::optional<double>> known_numbers(Json const& one, std::string co
 
 store::ObservedCase case_from(Json const& one, bool is_number) {
     store::ObservedCase found{
-        note::line(one, "case"),         note::text(one, "result"), {}, note::count(one, "discarded", 0),
+        note::text(one, "case"),         note::text(one, "result"), {}, note::count(one, "discarded", 0),
         note::count(one, "measured", 0), note::numbers(one, "at"),  {}};
     for (double const number : note::numbers(one, "packings"))
         found.packings.push_back(static_cast<int>(number));
@@ -49,8 +49,8 @@ store::ObservedCase case_from(Json const& one, bool is_number) {
 
 store::Observable observable_from(Json const& one) {
     store::Observable found{
-        note::text(one, "name"),   note::text(one, "unit"),          note::line(one, "meaning"),
-        note::line(one, "over"),   note::text(one, "over_unit"),     note::line(one, "file"),
+        note::text(one, "name"),   note::text(one, "unit"),          note::text(one, "meaning"),
+        note::text(one, "over"),   note::text(one, "over_unit"),     note::text(one, "file"),
         note::text(one, "source"), note::text(one, "source_sha256"), {}};
     if (!store::is_observable_name(found.name)) throw note::Fault("'name' is not that of an observable");
     if (!store::is_plain_unit(found.unit) || (!found.is_number() && !store::is_plain_unit(found.over_unit)))

@@ -5,12 +5,14 @@
 #include "campaign/state/observables.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/parallel.hpp"
 #include "evaluate/case.hpp"
 #include "store/result_file.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <map>
 #include <utility>
 
@@ -78,28 +80,17 @@ CaseOverview survey_ended(PlannedCase const& planned, store::CaseRecord const& r
 
 /// Why nothing of a case can be read although something is there; empty when it can be, or nothing is.
 std::string fault_of_folder(PlannedCase const& planned) {
-    std::error_code failure;
-    auto const type = fs::status(planned.folder, failure).type();
-    if (type == fs::file_type::not_found && !core::is_link(planned.folder)) return {};
-    if (type == fs::file_type::directory) {
-        if (::access(planned.folder.c_str(), R_OK | X_OK) == 0) return {};
-        return fmt::format("its folder cannot be read ({})", core::reason_of_errno());
-    }
-    if (type == fs::file_type::none)
-        return fmt::format("its folder cannot be looked at ({})", failure.message());
-    return "something that is not a folder has the name of its folder; move it away";
+    std::error_code missing;
+    bool const is_readable = ::access(planned.folder.c_str(), R_OK | X_OK) == 0;
+    if (is_readable || !fs::exists(planned.folder, missing)) return {};
+    return fmt::format("its folder cannot be read ({})", core::reason_of(EACCES));
 }
 
 /// Why a result that is there was not used; empty when there is none.
 std::string fault_of_result(PlannedCase const& planned) {
-    std::error_code failure;
-    auto const type = fs::symlink_status(planned.result_file(), failure).type();
-    if (type == fs::file_type::not_found || type == fs::file_type::none) return {};
-    if (!fs::is_regular_file(planned.result_file(), failure))
-        return "result.h5 is not a file, or is a link that leads to none; move it away and run again";
-    if (::access(planned.result_file().c_str(), R_OK) != 0)
-        return fmt::format("result.h5 cannot be read ({})", core::reason_of_errno());
-    return "result.h5 is damaged; run again";
+    std::error_code missing;
+    return fs::exists(planned.result_file(), missing) ? "result.h5 is damaged or cannot be read; run again"
+                                                      : "";
 }
 
 CaseOverview survey_without_result(PlannedCase const& planned, bool has_driver) {
@@ -119,10 +110,9 @@ CaseOverview survey_without_result(PlannedCase const& planned, bool has_driver) 
         overview.status = CaseStatus::failed;
         overview.outcome = failure->outcome;
         overview.message = failure->message;
-    } else if (fs::exists(fs::symlink_status(planned.failure_file(), missing))) {
+    } else if (fs::exists(planned.failure_file(), missing)) {
         overview.status = CaseStatus::failed;
-        overview.message = overview.fault =
-            "failure.json is damaged or is not a file; remove it and run again";
+        overview.message = overview.fault = "failure.json is damaged; remove it and run again";
     } else if (has_driver) {
         if (has_unfinished_packing(planned, finished)) overview.status = CaseStatus::running;
     } else if (!fault.empty() || has_unfinished_packing(planned, finished) ||

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/own_folder.hpp"
 #include "prepare/prepared_case.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -61,8 +60,6 @@ struct Plan {
     std::deque<PlannedCase> cases;                  ///< in the order of the campaign file, added ones last
     std::vector<std::filesystem::path> files = {};  ///< that the campaign file reads
     scenario::SweptKeys swept = {};                 ///< keys that differ between the cases
-    /// Keeps what is written and removed within the folder; none for a plan that only looks.
-    std::shared_ptr<core::OwnFolder const> own = {};
 };
 
 /// Works out the cases' ids and folders below `folder`: those of the campaign file, and after them those that

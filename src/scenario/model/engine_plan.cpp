@@ -127,8 +127,7 @@ std::string* add_line(ExtraLines& extra, std::string* place, std::string_view te
     if (command.starts_with('[')) {
         std::string* const next = place_of(extra, command);
         if (next == nullptr)
-            throw std::invalid_argument(
-                fmt::format("line {}: '{}' is not {}", line, core::printable(command, 60), headings));
+            throw std::invalid_argument(fmt::format("line {}: '{}' is not {}", line, command, headings));
         return next;
     }
     if (command.starts_with('#')) return place;

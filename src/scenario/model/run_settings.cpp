@@ -21,9 +21,6 @@ constexpr std::array<std::string_view, 20> options_of_sbatch{
     "mail-user",  "nice",       "nodelist",         "oversubscribe", "qos",       "reservation",
     "spread-job", "tmp"};
 
-/// Options of qsub that ask for resources or for mail, or say who pays.
-constexpr std::array<std::string_view, 5> options_of_qsub{"-l", "-m", "-M", "-p", "-P"};
-
 bool is_option_value(std::string_view text) {
     constexpr std::string_view others = "._,:@%+&|()[]*=-";
     return std::ranges::all_of(
@@ -35,17 +32,6 @@ bool is_option_value(std::string_view text) {
 bool is_plain_text(std::string_view text) {
     return std::ranges::all_of(
         text, [](char c) { return is_letter_or_digit(c) || c == '.' || c == '_' || c == '-'; });
-}
-
-bool is_scratch(std::string_view text) {
-    if (text.size() < 2 || text.size() > 200) return false;
-    bool const is_printable = std::ranges::all_of(text, [](char c) { return c > 0x1f && c < 0x7f; });
-    auto const slash = std::min(text.find('/'), text.size());
-    std::string_view const variable = text.substr(0, slash);
-    bool const is_variable =
-        variable.size() > 1 && variable[0] == '$' &&
-        std::ranges::all_of(variable.substr(1), [](char c) { return is_letter_or_digit(c) || c == '_'; });
-    return is_printable && (slash == 0 || is_variable);
 }
 
 std::optional<PlainName> PlainName::from(std::string_view text) {
@@ -67,20 +53,9 @@ std::string SlurmOption::names() {
     return fmt::format("--{}", fmt::join(options_of_sbatch, ", --"));
 }
 
-std::optional<BatchOption> PbsOption::from(std::string_view text) {
-    if (text.size() < 3 || text.size() > 200 || !is_option_value(text.substr(2))) return {};
-    if (std::ranges::find(options_of_qsub, text.substr(0, 2)) == options_of_qsub.end()) return {};
-    return BatchOption(text);
-}
-
-std::string PbsOption::names() {
-    return fmt::format("{}", fmt::join(options_of_qsub, ", "));
-}
-
 BatchSettings const& RunSettings::batch(std::string_view scheduler) const {
     static BatchSettings const nothing{};
-    if (scheduler == "slurm") return slurm;
-    return scheduler == "pbs" ? pbs : nothing;
+    return scheduler == "slurm" ? slurm : nothing;
 }
 
 }  // namespace vibrotrough::scenario

@@ -11,10 +11,6 @@ namespace vibrotrough::scenario {
 /// Whether the text has no other characters than letters, digits, '.', '_' and '-'.
 bool is_plain_text(std::string_view text);
 
-/// Whether the text names a folder below which engines may work: an absolute path, or a variable of the
-/// environment and what follows, such as "$TMPDIR" or "$SCRATCH/troughs". Printable, 2 to 200 characters.
-bool is_scratch(std::string_view text);
-
 /// A name that is safe in any command line and any file: 1 to 64 letters, digits, '.', '_' or '-', beginning
 /// with a letter or a digit. Names that are passed to a scheduler have this type, so that they cannot be
 /// anything else.
@@ -40,21 +36,12 @@ class BatchOption {
 
   private:
     friend struct SlurmOption;
-    friend struct PbsOption;
     explicit BatchOption(std::string_view text) : text_(text) {}
     std::string text_;
 };
 
 /// Options of sbatch.
 struct SlurmOption {
-    /// The text as an option, or nullopt when it is not an allowed one.
-    static std::optional<BatchOption> from(std::string_view text);
-    /// The names that are allowed, for messages.
-    static std::string names();
-};
-
-/// Options of qsub, such as "-lplace=excl": the letter and its value in one word.
-struct PbsOption {
     /// The text as an option, or nullopt when it is not an allowed one.
     static std::optional<BatchOption> from(std::string_view text);
     /// The names that are allowed, for messages.
@@ -82,9 +69,7 @@ struct RunSettings {
     int retries = 0;           ///< how often a packing is run again where the table of outcomes allows it
     std::optional<int> ranks;  ///< MPI ranks of each engine; otherwise chosen from the number of grains
     std::optional<double> time_limit;  ///< largest wall-clock time of a packing, s
-    std::string scratch = {};          ///< folder below which engines work, is_scratch(); empty: none
     BatchSettings slurm;               ///< only for the executor "slurm"
-    BatchSettings pbs;                 ///< only for the executor "pbs"
 
     /// What is asked of the scheduler with this name; of one without keys: nothing.
     BatchSettings const& batch(std::string_view scheduler) const;

@@ -2,7 +2,6 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/text.hpp"
 #include "scenario/reader/value_reader.hpp"
 
 #include <algorithm>
@@ -37,11 +36,11 @@ std::string CaseMaker::full_key(std::string const& name) const {
     }
     if (found.size() == 1) return found.front();
     if (!found.empty()) {
-        throw core::InputError(fmt::format("{} may be {}; write the whole key", core::printable(name, 60),
-                                           fmt::join(found, " or ")));
+        throw core::InputError(
+            fmt::format("{} may be {}; write the whole key", name, fmt::join(found, " or ")));
     }
-    throw core::InputError(fmt::format("{} is not varied in this campaign; its inputs are {}",
-                                       core::printable(name, 60), fmt::join(varied_, ", ")));
+    throw core::InputError(
+        fmt::format("{} is not varied in this campaign; its inputs are {}", name, fmt::join(varied_, ", ")));
 }
 
 Content CaseMaker::read_value(std::string const& key, std::string const& text) const {

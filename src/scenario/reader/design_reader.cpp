@@ -3,7 +3,6 @@
 #include "core/atomic_file.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
-#include "core/text.hpp"
 #include "scenario/reader/sample_cube.hpp"
 #include "scenario/reader/value_reader.hpp"
 
@@ -98,8 +97,7 @@ class DesignReader {
             } else {
                 for (auto const& [bound, value] : *bounds) {
                     if (bound.str() != "above" && bound.str() != "below")
-                        fail(bound.source(), name.str(),
-                             fmt::format("'{}' is not a bound", core::printable(bound.str(), 60)),
+                        fail(bound.source(), name.str(), fmt::format("'{}' is not a bound", bound.str()),
                              "write { above = a }, { below = b } or a value");
                     if (has_words(key))
                         fail(value.source(), name.str(), "its values have no order",
@@ -218,7 +216,7 @@ class DesignReader {
         bool const plain = PlainName::from(name).has_value() && name.ends_with(".csv");
         if (!plain || table.size() != 1)
             fail(table.source(), "points_from.file",
-                 fmt::format("'{}' is not the plain name of a CSV file", core::printable(name, 60)),
+                 fmt::format("'{}' is not the plain name of a CSV file", name),
                  "write file = \"points.csv\" for a file in the folder of the campaign file");
         std::filesystem::path const path = std::filesystem::path(file_).parent_path() / name;
         std::error_code failure;
@@ -240,7 +238,7 @@ class DesignReader {
         for (std::string const& name : list.keys) {
             Key const* const key = find_key(name);
             if (key == nullptr || !can_vary(*key))
-                throw_at({file, {static_cast<unsigned>(table.header_line()), 1}}, core::printable(name, 60),
+                throw_at({file, {static_cast<unsigned>(table.header_line()), 1}}, name,
                          "is not a key that can be varied",
                          "write keys such as trough.throw_number in the first line");
         }

@@ -3,7 +3,6 @@
 #include "core/error.hpp"
 #include "core/nearest.hpp"
 #include "core/quantity.hpp"
-#include "core/text.hpp"
 #include "scenario/reader/design_reader.hpp"
 #include "scenario/reader/other_words.hpp"
 #include "scenario/reader/run_section.hpp"
@@ -39,10 +38,6 @@ constexpr std::string_view key_advice = "see 'vibrotrough keys' for all keys";
 class CampaignFileReader {
   public:
     CampaignFileReader(std::string_view text, std::string const& file) : file_(file) {
-        if (unsigned const line = line_nested_too_deeply(text); line > 0) {
-            throw_at({file_, {line, 1}}, "TOML", "keys are nested too deeply",
-                     "write key = value lines under [section] headings");
-        }
         std::string readable(text);
         // A line that cannot be read is left out, so that a person sees all mistakes at once.
         while (!parse(readable)) {
@@ -140,7 +135,7 @@ class CampaignFileReader {
             return;
         }
         if (!is_section(name.str()) && name.str() != "sweep" && !node.is_table()) {
-            fail(where, core::printable(name.str(), 60), "is written above the first [section]",
+            fail(where, name.str(), "is written above the first [section]",
                  "move it below its section's heading");
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
@@ -148,9 +143,8 @@ class CampaignFileReader {
             // A section's name that is written almost right.
             std::string_view const near = meant.empty() ? nearest_section(name.str()) : meant;
             if (!near.empty())
-                fail(where, core::printable(name.str(), 60), "unknown section",
-                     fmt::format("did you mean [{}]?", near));
-            fail(where, core::printable(name.str(), 60), "unknown section",
+                fail(where, name.str(), "unknown section", fmt::format("did you mean [{}]?", near));
+            fail(where, name.str(), "unknown section",
                  fmt::format("the sections are {}, sweep, zip, points, points_from, sample, domain, exclude "
                              "and run",
                              fmt::join(sections_of_keys(), ", ")));
@@ -223,9 +217,8 @@ class CampaignFileReader {
         if (!node.is_string() || name.empty() || name.size() > 100 || !is_plain_text(name) ||
             name.front() == '.' || name.front() == '-') {
             fail(where, key.path,
-                 fmt::format("{} is not a valid name", node.is_string()
-                                                           ? fmt::format("'{}'", core::printable(name, 60))
-                                                           : "a value that is not a text"),
+                 fmt::format("{} is not a valid name",
+                             node.is_string() ? fmt::format("'{}'", name) : "a value that is not a text"),
                  fmt::format("{}: {}, beginning with a letter, a digit or '_'", write_instead(key),
                              key.range));
         }
@@ -292,7 +285,7 @@ class CampaignFileReader {
         for (auto const& [name, node] : range) {
             if (name.str() != "from" && name.str() != "to" && name.str() != "step") {
                 fail(position_of(name.source()), key.path,
-                     fmt::format("'{}' is not part of a range", core::printable(name.str(), 60)),
+                     fmt::format("'{}' is not part of a range", name.str()),
                      "write { from = a, to = b, step = c }");
             }
         }

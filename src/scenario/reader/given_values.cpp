@@ -2,7 +2,6 @@
 
 #include "core/atomic_file.hpp"
 #include "core/quantity.hpp"
-#include "core/text.hpp"
 #include "scenario/reader/swept_keys.hpp"
 
 #include <cmath>
@@ -40,7 +39,7 @@ void GivenValue::fail(std::string_view wrong, std::string_view instead) const {
 }
 
 void GivenValue::refuse(std::string_view text, std::string_view allowed) const {
-    fail(fmt::format("'{}' is not allowed", core::printable(text, 60)),
+    fail(fmt::format("'{}' is not allowed", text),
          fmt::format("{}; {}", write_instead(key_),
                      allowed.empty() ? fmt::format("allowed: {}", key_.range) : std::string(allowed)));
 }

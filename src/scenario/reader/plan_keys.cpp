@@ -1,4 +1,3 @@
-#include "core/text.hpp"
 #include "scenario/reader/key_fields.hpp"
 
 #include <algorithm>
@@ -46,8 +45,7 @@ void set_templates(Scenario& s, GivenValue const& v) {
         DeckTemplates templates;
         for (std::string const& name : names) {
             if (!is_template_name(name) || std::ranges::count(names, name) > 1)
-                v.fail(fmt::format("'{}' is not the name of a template, or is listed twice",
-                                   core::printable(name, 60)),
+                v.fail(fmt::format("'{}' is not the name of a template, or is listed twice", name),
                        "write names without a path, such as \"contact.mustache\"");
             templates.files.push_back(v.file(name));
         }

@@ -18,7 +18,8 @@ using enum KeyNeed;
 
 /// Schedulers that users know, for which there is no executor.
 bool is_other_scheduler(std::string_view name) {
-    constexpr std::array<std::string_view, 6> others{"torque", "lsf", "sge", "htcondor", "flux", "parallel"};
+    constexpr std::array<std::string_view, 7> others{"pbs",      "torque", "lsf",     "sge",
+                                                     "htcondor", "flux",   "parallel"};
     return std::ranges::find(others, name) != others.end();
 }
 
@@ -47,11 +48,6 @@ void set_executor(RunSettings& s, GivenValue const& v) {
     auto const known = choices(v.key());
     if (std::ranges::find(known, v.word()) == known.end()) v.refuse(v.word());
     s.executor = v.word();
-}
-
-void set_scratch(RunSettings& s, GivenValue const& v) {
-    if (!is_scratch(v.word())) v.refuse(v.word());
-    s.scratch = v.word();
 }
 
 // The keys of a scheduler's section; `section` is the member of RunSettings that holds its settings.
@@ -99,8 +95,8 @@ template <auto set>
 constexpr KeyAccess in_run{.set_run = set};
 
 constexpr std::array keys_of_run{
-    Key{"run.executor", KeyKind::choice, "", 0, 0, "local, slurm or pbs", "", optional, "\"slurm\"",
-        "what runs the packings: this machine, or job arrays of Slurm or of PBS", in_run<set_executor>},
+    Key{"run.executor", KeyKind::choice, "", 0, 0, "local or slurm", "", optional, "\"slurm\"",
+        "what runs the packings: this machine, or job arrays of Slurm", in_run<set_executor>},
     Key{"run.retries", KeyKind::integer, "", 0, 100, "0 to 100", "", 0.0, "2",
         "how often a packing is run again after an outcome for which the table of outcomes allows it",
         run_field<&RunSettings::retries>},
@@ -110,12 +106,6 @@ constexpr std::array keys_of_run{
     Key{"run.time_limit", KeyKind::quantity, "s", 1, 3e7, "1 s to 347 days", "", optional, "\"12 hours\"",
         "largest wall-clock time of a packing, after which its outcome is time-limit; no limit if not given",
         run_field<&RunSettings::time_limit>},
-    Key{"run.scratch", KeyKind::name, "", 0, 0, "an absolute path, or $NAME and what follows", "", optional,
-        "\"$TMPDIR\"",
-        "folder of the machine that runs a packing, below which its engine works in a private folder; "
-        "results "
-        "and checkpoints are brought back. The engine works in the campaign's folder if not given",
-        in_run<set_scratch>},
     Key{"run.slurm.partition", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
         optional, "\"compute\"", "partition; like all keys of this section, Slurm's default if not given",
         in_run<set_name<&RunSettings::slurm, &BatchSettings::partition>>},
@@ -147,27 +137,6 @@ constexpr std::array keys_of_run{
         "engine "
         "if not given",
         run_field<&RunSettings::slurm, &BatchSettings::cores_per_task>},
-    Key{"run.pbs.queue", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "", optional,
-        "\"workq\"", "queue; like all keys of this section, PBS's default if not given",
-        in_run<set_name<&RunSettings::pbs, &BatchSettings::partition>>},
-    Key{"run.pbs.account", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
-        optional, "\"granular\"", "account to which the computing time is charged",
-        in_run<set_name<&RunSettings::pbs, &BatchSettings::account>>},
-    Key{"run.pbs.time", KeyKind::quantity, "s", 60, 3e7, "1 minute to 347 days", "", optional, "\"12 hours\"",
-        "as run.slurm.time", in_run<set_minutes<&RunSettings::pbs>>},
-    Key{"run.pbs.memory", KeyKind::name, "", 0, 0, "1 MB to 1000000 GB", "", optional, "\"2 GB\"",
-        "as run.slurm.memory", in_run<set_memory<&RunSettings::pbs>>},
-    Key{"run.pbs.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "100",
-        "as run.slurm.concurrent_tasks", run_field<&RunSettings::pbs, &BatchSettings::concurrent_tasks>},
-    Key{"run.pbs.minutes_per_task", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "30",
-        "as run.slurm.minutes_per_task", run_field<&RunSettings::pbs, &BatchSettings::minutes_per_task>},
-    Key{"run.pbs.extra", KeyKind::texts, "", 0, 0, "1 to 30 options that ask for resources", "", optional,
-        "[\"-lplace=excl\", \"-Pgranular\"]", "further options of qsub, each with its value in one word",
-        in_run<set_extra_options<&RunSettings::pbs, PbsOption>>},
-    Key{"run.pbs.setup", KeyKind::texts, "", 0, 0, "1 to 30 lines", "", optional, "[\"module load openmpi\"]",
-        "as run.slurm.setup", in_run<set_setup<&RunSettings::pbs>>},
-    Key{"run.pbs.cores_per_task", KeyKind::integer, "", 1, 1024, "1 to 1024", "", optional, "64",
-        "as run.slurm.cores_per_task", run_field<&RunSettings::pbs, &BatchSettings::cores_per_task>},
 };
 
 /// Reads the section [run].
@@ -204,7 +173,7 @@ class RunSection {
                 std::string_view const rest = key.path.substr(std::min(section.size(), key.path.size()));
                 if (key.path.starts_with(section) && rest.find('.') == rest.npos) names.push_back(rest);
             }
-            fail(name.source(), core::printable(path, 60), "unknown key",
+            fail(name.source(), path, "unknown key",
                  fmt::format("the keys of this section are {}", fmt::join(names, ", ")));
         }
         found->access.set_run(settings_,

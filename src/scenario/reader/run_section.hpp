@@ -8,7 +8,7 @@
 
 namespace vibrotrough::scenario {
 
-/// Reads the section [run] with its subsections [run.slurm] and [run.pbs].
+/// Reads the section [run] with its subsection [run.slurm].
 /// @param file  names the campaign file in errors
 /// @throws core::InputError of one line: file:line:column, key, what is wrong, what to write instead
 RunSettings read_run_section(toml::table const& section, std::string const& file);

@@ -12,11 +12,6 @@
 
 namespace vibrotrough::scenario {
 
-/// The line of the first key or bracket that is nested too deeply, or 0. toml++ limits the depth of brackets
-/// but not of dotted keys: a key with a million dots, or fifty nested tables whose keys have 5000 dots each,
-/// would overflow the stack.
-unsigned line_nested_too_deeply(std::string_view text);
-
 /// Begin and length of a line, which counts from 1.
 std::pair<std::size_t, std::size_t> line_at(std::string_view text, unsigned line);
 

@@ -3,7 +3,6 @@
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/quantity.hpp"
-#include "core/text.hpp"
 #include "core/typed_unit.hpp"
 #include "scenario/model/run_settings.hpp"
 #include "theory/unusual.hpp"
@@ -163,11 +162,7 @@ class ValueReader {
 
     /// The value as the user wrote it, for a message.
     static std::string written(toml::node const& node) {
-        if (auto const* text = node.as_string()) {
-            std::string const shown = core::harmless(text->get());
-            return shown.size() > 60 ? fmt::format("'{}'", core::printable(shown, 60))
-                                     : fmt::format("'{}'", shown);
-        }
+        if (auto const* text = node.as_string()) return fmt::format("'{}'", text->get());
         if (auto const* whole = node.as_integer()) return std::to_string(whole->get());
         if (auto const* number = node.as_floating_point()) return fmt::format("{}", number->get());
         return "this value";
@@ -198,7 +193,7 @@ class ValueReader {
 
     /// What is wrong with a number, with its own advice where it has one.
     [[noreturn]] void fail_as_told(toml::node const& node, core::QuantityError const& error) const {
-        std::string const told = core::harmless(error.what()).substr(0, 300);
+        std::string const told = error.what();
         auto const advice = told.find("; write ");
         if (advice == told.npos) fail(node, told, write_instead(key_));
         fail(node, told.substr(0, advice), told.substr(advice + 2));
@@ -242,7 +237,7 @@ Position position_of(toml::source_region const& source) {
 Key const& known_key(std::string_view path, FilePosition place, std::string_view advice) {
     if (Key const* key = find_key(path)) return *key;
     std::string_view const nearest = nearest_key(path);
-    throw_at(place, core::printable(path, 60), "unknown key",
+    throw_at(place, path, "unknown key",
              nearest.empty() ? std::string(advice) : fmt::format("did you mean {}?", nearest));
 }
 

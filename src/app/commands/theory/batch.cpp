@@ -5,7 +5,6 @@
 #include "app/exit_code.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/text.hpp"
 #include "store/theory_table.hpp"
 
 #include <filesystem>
@@ -50,7 +49,7 @@ void run_theory_batch(TheoryBatchArguments const& options) {
     }
     std::size_t const count = table.points.size();
     fmt::print("{} point{}, {:.1f} microseconds of CPU per solution, written to {}\n", count,
-               count == 1 ? "" : "s", 1e6 * answer.cpu_seconds_per_solution, core::harmless(output));
+               count == 1 ? "" : "s", 1e6 * answer.cpu_seconds_per_solution, output);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include "app/exit_code.hpp"
 #include "app/standard_streams.hpp"
 #include "core/error.hpp"
-#include "core/text.hpp"
 #include "store/theory_map.hpp"
 #include "view/theory_map_vtk.hpp"
 #include "view/vtk.hpp"
@@ -65,16 +64,15 @@ void refuse_given_axis(theory::Inputs const& fixed, theory::MapAxis const& axis)
 /// Names the files that were written, and says it when those for ParaView were not.
 void print_written(std::filesystem::path const& output, std::filesystem::path const& image,
                    std::filesystem::path const& lines) {
-    fmt::print("written: {}\n", core::harmless(output.string()));
+    fmt::print("written: {}\n", output.string());
     if (view::has_vtk()) {
-        fmt::print("         {}\n         {}\n", core::harmless(image.string()),
-                   core::harmless(lines.string()));
+        fmt::print("         {}\n         {}\n", image.string(), lines.string());
     } else {
         tell(
             "warning: {} and {} for ParaView are not written, because this program was built without VTK; "
             "run "
             "this command with a program that was built with VTK (cmake -DVIBROTROUGH_VIEW=ON)\n",
-            core::harmless(image.string()), core::harmless(lines.string()));
+            image.string(), lines.string());
     }
 }
 

@@ -3,7 +3,6 @@
 #include "app/exit_code.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/text.hpp"
 #include "theory/quantities.hpp"
 #include "theory/tested_range.hpp"
 
@@ -85,8 +84,7 @@ Table trace_rolling(TheoryTraceArguments const& options, theory::Conveyor const&
 void write(TheoryTraceArguments const& options, int samples, Table const& table) {
     if (options.output) {
         core::write_file_atomically(*options.output, table.text);
-        fmt::print("{} samples of mode {} written to {}\n", samples, table.mode,
-                   core::harmless(*options.output));
+        fmt::print("{} samples of mode {} written to {}\n", samples, table.mode, *options.output);
     } else {
         fmt::print("{}", table.text);
     }
