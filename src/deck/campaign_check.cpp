@@ -1,5 +1,7 @@
 #include "deck/campaign_check.hpp"
 
+#include "deck/deck.hpp"
+
 #include "deck/estimates.hpp"
 #include "scenario/reader/swept_keys.hpp"
 
@@ -56,6 +58,8 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
     for (scenario::Scenario const& scenario : campaign.cases) {
         prepare::PreparedCase const prepared = preparer.prepare(scenario);
         ++total.cases;
+        // A mistake in a template of the case is found now, and not when the first packing starts.
+        if (total.cases == 1 && scenario.engine.templates) make_deck(prepared, {1});
         std::string const label = swept_label(scenario, campaign.swept);
         for (Finding const& finding : check(prepared)) add(total, finding, total.cases, label);
         double const modulus = prepared.scenario.grains.youngs_modulus.value();

@@ -1,6 +1,7 @@
 #include "deck/deck.hpp"
 
 #include "core/atomic_file.hpp"
+#include "core/hash.hpp"
 #include "deck/deck_data.hpp"
 #include "deck/deck_folder.hpp"
 #include "deck/impacts.hpp"
@@ -12,7 +13,6 @@
 #include "deck/trough_mesh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -46,7 +46,7 @@ std::string tidy(std::string_view text) {
     return result;
 }
 
-std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prepared) {
+std::map<std::string, std::string> meshes(prepare::PreparedCase const& prepared) {
     scenario::Scenario const& scenario = prepared.scenario;
     double const length = scenario.layer.length, width = scenario.layer.width,
                  edge = 3 * mean_diameter(scenario);
@@ -68,32 +68,6 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
     }
     if (domain.open) files["back.stl"] = cross_wall_stl(width, 0, prepared.wall_height, 0, coarse);
     return files;
-}
-
-std::map<std::string, std::string> const& meshes(prepare::PreparedCase const& prepared) {
-    // Cases with the same layer come one after the other and have the same meshes.
-    scenario::Scenario const& scenario = prepared.scenario;
-    bool const has_walls = scenario.trough.side_wall_friction || prepared.domain.has_mesh();
-    std::array<double, 8> const shape{metres_in(scenario.trough.mesh_unit),
-                                      scenario.layer.length,
-                                      scenario.layer.width,
-                                      mean_diameter(scenario),
-                                      scenario.trough.side_wall_friction ? 1.0 : 0.0,
-                                      has_walls ? prepared.wall_height : 0.0,
-                                      prepared.domain.open ? 1.0 : 0.0,
-                                      has_holes(scenario) ? 1.0 : 0.0};
-    thread_local std::array<double, 8> last_shape{};
-    thread_local std::shared_ptr<scenario::TroughMesh const> last_mesh;
-    thread_local std::vector<std::string> last_parts;
-    thread_local std::map<std::string, std::string> last;
-    std::vector<std::string> parts = own_parts(scenario);
-    if (last.empty() || shape != last_shape || scenario.trough.mesh != last_mesh || parts != last_parts) {
-        last = make_meshes(prepared);
-        last_shape = shape;
-        last_mesh = scenario.trough.mesh;
-        last_parts = std::move(parts);
-    }
-    return last;
 }
 
 }  // namespace
@@ -172,6 +146,26 @@ std::string for_one_rank(std::string content) {
     auto const at = content.find(processors_line);
     if (at != std::string::npos) content.erase(at, processors_line.size());
     return content;
+}
+
+std::string digest_of(std::map<std::string, std::string> const& files) {
+    core::Sha256 digest;
+    for (auto const& [name, content] : files) {
+        digest.add(name + "\n");
+        digest.add(content);
+    }
+    return digest.hex();
+}
+
+std::map<std::string, std::string> read_files(std::filesystem::path const& folder,
+                                              std::map<std::string, std::string> const& names) {
+    std::map<std::string, std::string> files;
+    for (auto const& [name, unused] : names) {
+        std::error_code missing;
+        if (!std::filesystem::is_regular_file(folder / name, missing)) continue;
+        files[name] = for_one_rank(core::read_file(folder / name, core::largest_note));
+    }
+    return files;
 }
 
 void write_files(std::map<std::string, std::string> const& files, std::filesystem::path const& folder) {

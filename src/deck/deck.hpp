@@ -79,6 +79,15 @@ std::map<std::string, std::string> for_ranks(std::map<std::string, std::string> 
 /// Reverts for_ranks() in the content of one file.
 std::string for_one_rank(std::string content);
 
+/// SHA-256 over the names and contents of files.
+std::string digest_of(std::map<std::string, std::string> const& files);
+
+/// The files of a folder, for one rank. @param names  the files to read; only the names are used, and files
+/// that do not exist are left out
+/// @throws core::MissingError when a file cannot be read
+std::map<std::string, std::string> read_files(std::filesystem::path const& folder,
+                                              std::map<std::string, std::string> const& names);
+
 /// Writes files into a folder, which is made if necessary.
 /// @throws core::MissingError when the folder or a file cannot be written
 void write_files(std::map<std::string, std::string> const& files, std::filesystem::path const& folder);

@@ -227,7 +227,7 @@ void describe_drive(core::TemplateData& data, prepare::PreparedCase const& n) {
     std::vector<core::TemplateData> lines;
     for (auto const& [axis, terms] :
          {std::pair{std::string("x"), &motion.along}, std::pair{std::string("z"), &motion.normal}}) {
-        DriveFormula const& formula = drive_formula(*terms, axis);
+        DriveFormula const formula = drive_formula(*terms, axis);
         for (Formula const& term : formula.terms) {
             core::TemplateData entry;
             entry.set("name", term.name);

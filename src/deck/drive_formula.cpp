@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -39,26 +38,14 @@ DriveFormula write_sum(std::vector<scenario::DriveTerm> const& terms, std::strin
     return formula;
 }
 
-DriveFormula write_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis) {
+}  // namespace
+
+DriveFormula drive_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis) {
     DriveFormula formula = write_sum(terms, "step_" + axis, [](scenario::DriveTerm const& term) {
         return sine(term, "angle") + "-" + sine(term, "angle_before");
     });
     formula.speed = formula.terms.empty() ? "0" : fmt::format("({})/dt", formula.speed);
     return formula;
-}
-
-}  // namespace
-
-DriveFormula const& drive_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis) {
-    // Cases that share a measured waveform come one after the other and have the same formula.
-    struct Last {
-        std::vector<scenario::DriveTerm> terms;
-        DriveFormula formula;
-    };
-    thread_local std::map<std::string, Last> last;
-    auto const found = last.find(axis);
-    if (found != last.end() && found->second.terms == terms) return found->second.formula;
-    return last.insert_or_assign(axis, Last{terms, write_formula(terms, axis)}).first->second.formula;
 }
 
 DriveFormula displacement_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& name,

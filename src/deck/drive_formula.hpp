@@ -23,8 +23,7 @@ struct DriveFormula {
 /// The velocity that belongs to a Fourier series of the displacement.
 /// @param terms  displacement along the axis
 /// @param axis   "x" or "z", part of the names of the variables
-/// @return valid until this thread asks for another formula of the axis
-DriveFormula const& drive_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis);
+DriveFormula drive_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis);
 
 /// The displacement D = X - X(0) that belongs to a Fourier series X, in the member `speed` of the result, m.
 /// @param name   with which the names of the variables begin

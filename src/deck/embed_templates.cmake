@@ -10,7 +10,7 @@ file(WRITE ${OUTPUT} "#include \"deck/templates.hpp\"
 
 namespace vibrotrough::deck {
 
-std::map<std::string_view, std::string_view> const input_templates{
+core::TemplateTexts const input_templates{
 ${entries}};
 
 }  // namespace vibrotrough::deck

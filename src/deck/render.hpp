@@ -20,4 +20,8 @@ std::string render_template(std::string_view name, core::TemplateData const& dat
 std::string render_template(std::string_view name, core::TemplateData const& data,
                             scenario::DeckTemplates const* replaced);
 
+/// SHA-256 of the program's templates of decks, without the lines that are comments: a part of the id of a
+/// case, so that another deck is another case.
+std::string const& digest_of_templates();
+
 }  // namespace vibrotrough::deck

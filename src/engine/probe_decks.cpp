@@ -125,7 +125,7 @@ void add_campaign_values(TemplateData& values, MovingTrough const& motion) {
     std::vector<TemplateData> lines;
     for (auto const& [axis, terms] :
          {std::pair{std::string("x"), &drive.along}, std::pair{std::string("z"), &drive.normal}}) {
-        deck::DriveFormula const& formula = deck::drive_formula(*terms, axis);
+        deck::DriveFormula const formula = deck::drive_formula(*terms, axis);
         for (deck::Formula const& term : formula.terms)
             lines.push_back(data_of({{"name", term.name}, {"expression", term.expression}}));
         values.set(fmt::format("speed_{}", axis), formula.speed);

@@ -3,7 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "deck/commands.hpp"
+#include "deck/deck.hpp"
 #include "deck/deck.hpp"
 #include "deck/deck_folder.hpp"
 #include "evaluate/case.hpp"
@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <regex>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -78,63 +79,29 @@ prepare::PreparedCase read_case(fs::path const& file) {
     return prepare::prepare_case(campaign.cases.front());
 }
 
-/// The commands of a deck without the one that sets the speed of the start, which depends on the packing.
-std::vector<std::string> comparable_commands(std::string const& deck) {
-    std::vector<std::string> commands;
-    std::string const all = deck::commands_of(deck::for_one_rank(deck));
-    for (std::size_t start = 0; start < all.size();) {
-        std::size_t const end = std::min(all.find('\n', start), all.size());
-        std::string command = all.substr(start, end - start);
-        start = end + 1;
-        if (command.find("velocity all set") == command.npos) commands.push_back(std::move(command));
-    }
-    return commands;
-}
-
-/// How a file of the deck differs from what this program writes, in words; empty when its commands do not.
-std::string difference(std::string const& name, std::string const& content, std::string const& own) {
-    if (!name.ends_with(".liggghts")) return content == own ? "" : name + " differs";
-    auto const there = comparable_commands(content), expected = comparable_commands(own);
-    auto const [a, b] = std::ranges::mismatch(there, expected);
-    if (a == there.end() && b == expected.end()) return {};
-    if (a == there.end()) return fmt::format("{} lacks '{}'", name, *b);
-    return fmt::format("{} has '{}'", name, *a);
-}
-
 /// Compares the deck in a folder with the deck that this program would write.
 void compare_deck(HandPacking& packing, prepare::PreparedCase const& prepared) {
-    auto const own = deck::make_deck(prepared, {std::max(1, packing.number)}).files;
-    bool any = false, comments = false;
-    for (auto const& [name, content] : own) {
-        if (name == deck::control_file) continue;  // says only when the run ends
-        fs::path const path = packing.folder / name;
-        if (!is_file(path)) continue;
-        any = true;
+    auto own = deck::make_deck(prepared, {std::max(1, packing.number)}).files;
+    own.erase(deck::control_file);  // says only when the run ends
+    auto const there = deck::read_files(packing.folder, own);
+    for (auto const& [name, content] : there) {
         packing.files.push_back(name);
-        std::string const there = core::read_file(path, core::largest_note);
-        if (there == content) continue;
-        std::string const edit = difference(name, there, content);
-        comments = comments || edit.empty();
-        if (!edit.empty()) packing.edits.push_back(edit);
+        if (content != own.at(name)) packing.edited.push_back(name);
     }
-    packing.deck = !any                     ? DeckState::missing
-                   : !packing.edits.empty() ? DeckState::changed
-                   : comments               ? DeckState::comments
-                                            : DeckState::unchanged;
+    packing.deck = there.empty()            ? DeckState::missing
+                   : packing.edited.empty() ? DeckState::unchanged
+                                            : DeckState::changed;
 }
 
 /// The whole number N of a line "variable n equal N" of a deck; none when there is no such line.
 std::optional<int> steps_per_cycle(fs::path const& deck) {
     if (!is_file(deck)) return {};
-    std::string const commands = deck::commands_of(core::read_file(deck, core::largest_note));
-    constexpr std::string_view begin = "variable n equal ";
-    auto const at = commands.find(begin);
-    if (at == commands.npos) return {};
-    char const* const first = commands.data() + at + begin.size();
-    int steps = 0;
-    auto const [rest, failure] = std::from_chars(first, commands.data() + commands.size(), steps);
-    if (failure != std::errc() || *rest != '\n' || steps < 1) return {};
-    return steps;
+    static std::regex const line(R"((^|\n)\s*variable\s+n\s+equal\s+(\d{1,9})\s*(#[^\n]*)?\n)");
+    std::string const text = core::read_file(deck, core::largest_note);
+    std::smatch found;
+    if (!std::regex_search(text, found, line)) return {};
+    int const steps = std::stoi(found[2].str());
+    return steps >= 1 ? std::optional(steps) : std::nullopt;
 }
 
 /// How the engine's own output says that the run ended.
@@ -200,8 +167,6 @@ std::string_view name_of(DeckState state) {
     switch (state) {
         case DeckState::unchanged:
             return "unchanged";
-        case DeckState::comments:
-            return "changed in comments or in the speed of the start";
         case DeckState::changed:
             return "changed";
         case DeckState::missing:

@@ -15,8 +15,7 @@ namespace vibrotrough::evaluate {
 /// How a deck in a folder relates to what this program writes for its scenario.
 enum class DeckState {
     unchanged,  ///< every file is as 'vibrotrough deck' wrote it, or would write it now
-    comments,   ///< only comments, blanks or the speed differ with which all grains start
-    changed,    ///< commands or meshes differ
+    changed,    ///< a file differs
     missing,    ///< there is no deck in the folder
 };
 
@@ -28,8 +27,8 @@ struct HandPacking {
     std::filesystem::path folder;    ///< of the run
     int number;                      ///< N of a folder packing-N, else 1
     DeckState deck;                  ///< what its decks are
-    std::vector<std::string> edits;  ///< one line for people per file of the deck that differs
-    std::vector<std::string> files;  ///< names of the files that were read
+    std::vector<std::string> edited;  ///< names of the files of the deck that differ
+    std::vector<std::string> files;   ///< names of the files that were read
     int cycles;                      ///< whole cycles that were written
     std::vector<double> efficiency;  ///< velocity efficiency of each cycle
     std::string end;                 ///< how the run ended, in words

@@ -82,7 +82,7 @@ std::filesystem::path write_scene(FrameSource const& source, ColourScales const&
     data.set("GRAIN_SPACE",
              space ? fmt::format("({}, {}, {}, {})", space->left, space->right, space->bottom, space->top)
                    : "None");
-    core::write_file_atomically(target / "view_case.py", core::Template(scene_template, tags).render(data));
+    core::write_file_atomically(target / "view_case.py", core::render(scene_template, data, tags));
 
     std::filesystem::path const starter = target / "view.sh";
     core::write_file_atomically(starter, scene_starter);

@@ -1,6 +1,5 @@
 #include "core/error.hpp"
 #include "deck/check.hpp"
-#include "deck/commands.hpp"
 #include "deck/deck.hpp"
 #include "deck/estimates.hpp"
 #include "scenario/example_campaign.hpp"
@@ -33,7 +32,7 @@ Deck deck(std::string const& engine, std::string const& extra = three_places) {
 }
 
 std::string digest(std::string const& engine, std::string const& extra = three_places) {
-    return digest_of_commands(deck(engine, extra).files);
+    return digest_of(deck(engine, extra).files);
 }
 
 bool holds(std::string const& text, std::string const& part) {
@@ -107,7 +106,6 @@ TEST(EngineSection, TheCommandsOfTheLinesBelongToTheId) {
     EXPECT_NE(digest("cohesion = \"1 J/m3\"\n"), digest(""));
 }
 
-// What another template says is in the deck, and in the id only if its commands differ.
 TEST(EngineSection, TemplatesAreReplaced) {
     auto const with_template = [](std::string const& name, std::string const& text) {
         return make_deck(prepared("templates = [\"" + name + "\"]\n", three_places, {{name, text}}), {1});
@@ -116,9 +114,8 @@ TEST(EngineSection, TemplatesAreReplaced) {
     Deck const other = with_template("inputs.mustache", "# {{{grains}}} grains, in my own words\n");
     EXPECT_TRUE(holds(other.files.at("in.liggghts"),
                       fmt::format("\n# {} grains, in my own words\n", prepared("").scenario.layer.grains)));
-    EXPECT_EQ(digest_of_commands(other.files), digest_of_commands(plain.files));
     Deck const changed = with_template("inputs.mustache", "variable my equal {{{grains}}}\n");
-    EXPECT_NE(digest_of_commands(changed.files), digest_of_commands(plain.files));
+    EXPECT_NE(digest_of(changed.files), digest_of(plain.files));
     EXPECT_EQ(deck("").files, plain.files);
     EXPECT_THROW(with_template("contakt.mustache", ""), core::InputError);
     EXPECT_THROW(with_template("inputs.mustache", "{{#grains}}"), core::InputError);

@@ -1,4 +1,3 @@
-#include "deck/commands.hpp"
 #include "deck/deck.hpp"
 #include "deck/estimates.hpp"
 #include "scenario/example_campaign.hpp"

@@ -1,6 +1,5 @@
 #include "deck/impacts.hpp"
 
-#include "deck/commands.hpp"
 #include "deck/deck.hpp"
 #include "deck/estimates.hpp"
 #include "scenario/example_campaign.hpp"
@@ -34,7 +33,7 @@ TEST(ImpactDeck, WatchesTwoCyclesThatEveryPackingHas) {
                without = make_deck(impact_case(example_campaign), {1});
     EXPECT_EQ(with_it.settle_files, without.settle_files);
     EXPECT_THAT(without.files.at(drive_file), Not(HasSubstr("grain_contacts")));
-    EXPECT_NE(digest_of_commands(with_it.files), digest_of_commands(without.files));
+    EXPECT_NE(digest_of(with_it.files), digest_of(without.files));
     prepare::PreparedCase const prepared = impact_case(with_lines("impacts = true"));
     auto const [from, to] = watched_cycles(prepared.scenario);
     EXPECT_EQ(to, first_round_cycles(prepared.scenario));

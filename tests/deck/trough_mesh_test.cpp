@@ -1,7 +1,6 @@
 #include "deck/trough_mesh.hpp"
 
 #include "deck/atom_types.hpp"
-#include "deck/commands.hpp"
 #include "deck/deck.hpp"
 #include "scenario/example_campaign.hpp"
 #include "scenario/open_mesh.hpp"

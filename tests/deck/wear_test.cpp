@@ -1,4 +1,3 @@
-#include "deck/commands.hpp"
 #include "deck/deck.hpp"
 #include "deck/estimates.hpp"
 #include "scenario/example_campaign.hpp"
@@ -31,7 +30,7 @@ TEST(WearDeck, WearsInBothDecks) {
     }
     EXPECT_THAT(with_it.files.at(settle_file), Not(HasSubstr("dump ")));
     EXPECT_THAT(with_it.files.at(drive_file), HasSubstr("wear.*.vtk trough id area wear\n"));
-    EXPECT_NE(digest_of_commands(with_it.files), digest_of_commands(without.files));
+    EXPECT_NE(digest_of(with_it.files), digest_of(without.files));
 }
 
 // With side walls and two materials there are four types of atoms; the side walls do not wear.

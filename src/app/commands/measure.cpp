@@ -71,7 +71,7 @@ Json describe(evaluate::HandPacking const& packing, scenario::MeasurementPlan co
             {"own_half_width", std::isfinite(own.half_width) ? Json(own.half_width) : Json(nullptr)},
             {"mode", packing.mode.empty() ? Json(nullptr) : Json(packing.mode)},
             {"deck", name_of(packing.deck)},
-            {"deck_changes", packing.edits},
+            {"deck_changes", packing.edited},
             {"end", packing.end},
             {"fault", packing.fault ? Json(name_of(*packing.fault)) : Json(nullptr)},
             {"message", packing.message},
@@ -118,8 +118,8 @@ void print_packing(evaluate::HandPacking const& packing, scenario::MeasurementPl
         fmt::print("  velocity efficiency: {:.4f}, from too few cycles for an interval\n", own.mean);
     }
     fmt::print("  end of the run: {}\n", core::harmless(packing.end));
-    fmt::print("  deck: {}{}{}\n", name_of(packing.deck), packing.edits.empty() ? "" : ": ",
-               core::harmless(fmt::format("{}", fmt::join(packing.edits, "; "))));
+    fmt::print("  deck: {}{}{}\n", name_of(packing.deck), packing.edited.empty() ? "" : ": ",
+               core::harmless(fmt::format("{}", fmt::join(packing.edited, ", "))));
     if (packing.fault)
         fmt::print("  a campaign would not count it: {}, {}\n", name_of(*packing.fault),
                    core::harmless(packing.message));

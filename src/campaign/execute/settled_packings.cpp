@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/time.hpp"
-#include "deck/commands.hpp"
+#include "deck/deck.hpp"
 #include "engine/binary_watch.hpp"
 #include "engine/run_report.hpp"
 #include "engine/sole_writer.hpp"
@@ -38,8 +38,7 @@ bool is_whole(fs::path const& folder, deck::Deck const& deck) {
     try {
         if (!fs::is_regular_file(folder / seal_file) || !fs::is_regular_file(folder / deck::settled_file))
             return false;
-        auto const made_with = deck::read_files(folder, deck.settle_files);
-        if (deck::digest_of_commands(made_with) != deck::digest_of_commands(deck.settle_files)) return false;
+        if (deck::read_files(folder, deck.settle_files) != deck.settle_files) return false;
         return parse_settled(core::read_file(folder / seal_file, core::largest_note)) ==
                core::sha256_hex(core::read_file(folder / deck::settled_file));
     } catch (core::Error const&) {
@@ -99,7 +98,7 @@ struct SettledPackings::Settling {
 };
 
 std::string packing_key(deck::Deck const& deck, std::string const& engine_version) {
-    return core::sha256_hex(engine_version + "\n" + deck::digest_of_commands(deck.settle_files))
+    return core::sha256_hex(engine_version + "\n" + deck::digest_of(deck.settle_files))
         .substr(0, 12);
 }
 

@@ -4,7 +4,6 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "deck/commands.hpp"
 
 #include <charconv>
 #include <string_view>
@@ -61,7 +60,7 @@ bool has_row(std::string const& text, long step) {
 }
 
 std::string digest_of_drive(std::string const& content) {
-    return core::sha256_hex(deck::commands_of(content));
+    return core::sha256_hex(content);
 }
 
 std::optional<long> number_between(std::string_view name, std::string_view start, std::string_view end) {
@@ -84,14 +83,14 @@ std::vector<fs::path> restart_files(fs::path const& folder) {
     return files;
 }
 
-/// The sealed checkpoint, if it was made with the commands of `drive` and is still what was sealed.
+/// The sealed checkpoint, if it was made with the deck `drive` and is still what was sealed.
 std::optional<Checkpoint> find_checkpoint(fs::path const& folder, std::string const& drive,
                                           int steps_per_cycle) {
     try {
         if (!fs::is_regular_file(folder / checkpoint_seal)) return {};
-        auto const [checkpoint, restart, commands] =
+        auto const [checkpoint, restart, deck] =
             parse_checkpoint(core::read_file(folder / checkpoint_seal, core::largest_note));
-        bool const known = checkpoint_cycle(checkpoint.file) && commands == digest_of_drive(drive) &&
+        bool const known = checkpoint_cycle(checkpoint.file) && deck == digest_of_drive(drive) &&
                            restart == core::sha256_hex(core::read_file(folder / checkpoint.file));
         if (known && has_row(core::read_file(folder / "cycles.csv"),
                              static_cast<long>(checkpoint.cycle) * steps_per_cycle))
@@ -118,7 +117,7 @@ void seal_checkpoint(fs::path const& folder, deck::Deck const& deck, Checkpoint 
     Json const seal{{"cycle", checkpoint.cycle},
                     {"file", checkpoint.file},
                     {"restart_sha256", core::sha256_hex(core::read_file(folder / checkpoint.file))},
-                    {"commands_sha256", digest_of_drive(deck.files.at(deck::drive_file))},
+                    {"deck_sha256", digest_of_drive(deck.files.at(deck::drive_file))},
                     {"started", checkpoint.started},
                     {"wall_time", checkpoint.wall_time},
                     {"core_time", checkpoint.core_time}};

@@ -49,7 +49,7 @@ CheckpointSeal parse_checkpoint(std::string_view text) {
     return {{note::count(json, "cycle", 1), note::text(json, "file"), note::text(json, "started"), wall_time,
              json.contains("core_time") ? note::number(json, "core_time", 0) : wall_time},
             note::text(json, "restart_sha256"),
-            note::text(json, "commands_sha256")};
+            note::text(json, "deck_sha256")};
 }
 
 std::string parse_settled(std::string_view text) {

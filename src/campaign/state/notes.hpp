@@ -32,7 +32,7 @@ Failure parse_failure(std::string_view text);
 struct CheckpointSeal {
     Checkpoint checkpoint;        ///< that is sealed
     std::string restart_sha256;   ///< of the restart file
-    std::string commands_sha256;  ///< of the deck that wrote it
+    std::string deck_sha256;     ///< of the deck that wrote it
 };
 
 /// checkpoint.json

@@ -3,7 +3,7 @@
 #include "campaign/state/added_cases.hpp"
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
-#include "deck/commands.hpp"
+#include "deck/render.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
 #include <algorithm>
@@ -60,14 +60,8 @@ class Planner {
 }  // namespace
 
 std::string case_id(prepare::PreparedCase const& prepared, std::string const& engine_version) {
-    scenario::MeasurementPlan const& measure = prepared.scenario.measure;
-    // The packings differ by their seeds and by how they start, so that the first, at rest, stands for all.
-    std::string const commands = deck::digest_of_commands(deck::make_deck(prepared, {1}).files);
-    // Frames of other packings than the first are not in these commands.
-    std::string const frames = frame_toml(prepared.scenario);
-    return core::sha256_hex(fmt::format("{}\n{}\npackings {} confidence {} half_width {}\n{}", engine_version,
-                                        commands, measure.packings, measure.confidence, measure.half_width,
-                                        frames))
+    return core::sha256_hex(fmt::format("{}\n{}\n{}", engine_version, deck::digest_of_templates(),
+                                        scenario::identity_of(prepared.scenario)))
         .substr(0, 12);
 }
 

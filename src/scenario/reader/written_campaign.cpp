@@ -1,6 +1,7 @@
 #include "scenario/reader/written_campaign.hpp"
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 
 #include <iterator>
 #include <optional>
@@ -82,12 +83,17 @@ std::string to_toml(Scenario const& scenario) {
     return section == "engine" ? text + "\n" : text;
 }
 
-std::string frame_toml(Scenario const& scenario) {
+std::string identity_of(Scenario const& scenario) {
+    Scenario canonical = scenario;
+    canonical.trough.given = {};
     std::string text;
-    for (char const* path : {"output.frame_packings", "output.contacts"}) {
-        Key const& key = *find_key(path);
-        if (auto const value = written_value(key, scenario)) add_line(text, last_name(path), key, *value);
+    for (Key const& key : all_keys()) {
+        if (key.path == "campaign.name" || key.path == "measure.max_packings" || key.path == "measure.max_core_time")
+            continue;
+        if (auto const value = written_value(key, canonical)) add_line(text, key.path, key, *value);
     }
+    for (NamedFile const& file : named_files(scenario))
+        text += fmt::format("{} {}\n", file.name, core::sha256_hex(file.content));
     return text;
 }
 

@@ -16,9 +16,9 @@ namespace vibrotrough::scenario {
 /// shape, waveform, extra lines and templates; named_files() returns them.
 std::string to_toml(Scenario const& scenario);
 
-/// The lines "frame_packings = ..." and "contacts = true" of to_toml(), with their ends; empty when there are
-/// no frames, or only those of the first packing without contacts.
-std::string frame_toml(Scenario const& scenario);
+/// What a case is, as text: to_toml() in canonical form, whatever numbers of the drive the user gave, with the
+/// digests of the files that it names, and without the name of the campaign and the limits of its cost.
+std::string identity_of(Scenario const& scenario);
 
 /// Values of a case by the paths of their keys.
 using WrittenKeys = std::map<std::string_view, Content>;
