@@ -47,7 +47,7 @@ with the point-mass theory of vibratory conveying.
   SHA256SUMS               checksums: sha256sum -c SHA256SUMS
 
 The files of the folder from which this bundle was made can be read with HDF5's tools and any text editor.
-'vibrotrough compare BUNDLE' checks all files and prints the table from the results.
+Unpacked, it is a campaign's folder: 'vibrotrough compare FOLDER' prints the table from the results.
 )";
 
 /// Writes the files of a bundle and keeps their list.

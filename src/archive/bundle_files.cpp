@@ -1,10 +1,8 @@
 #include "archive/bundle_files.hpp"
 
-#include "archive/zip_file.hpp"
 #include "campaign/schedule/policy.hpp"
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/observables.hpp"
-#include "core/error.hpp"
 #include "deck/deck.hpp"
 
 #include <algorithm>
@@ -26,10 +24,6 @@ class Collection {
     void add(std::string const& name) {
         std::error_code missing;
         if (!fs::exists(folder_ / name, missing) || fs::is_directory(folder_ / name, missing)) return;
-        if (!is_safe_name(name)) {
-            throw core::InputError(
-                fmt::format("{}: a bundle holds no file of this name; rename it", (folder_ / name).string()));
-        }
         files_.push_back({name, folder_ / name, {}});
     }
 

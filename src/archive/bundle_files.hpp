@@ -20,7 +20,6 @@ struct StoredFile {
 /// What is frozen of a campaign and what belongs to it as a whole: campaign file, engine, certificate, files
 /// that the campaign names, added cases, friction and numerical error, campaign.h5 if it is up to date,
 /// figures and report.
-/// @throws core::InputError when a file has a name that a bundle cannot hold
 std::vector<StoredFile> files_of_campaign(campaign::Plan const& plan);
 
 /// What belongs to a case: its scenario with the files that it names, its result or failure, and the decks of

@@ -5,7 +5,6 @@
 #include "core/limits.hpp"
 #include "core/text.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -21,11 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 using Writer = std::unique_ptr<struct ::archive, decltype(&archive_write_free)>;
-using Reader = std::unique_ptr<struct ::archive, decltype(&archive_read_free)>;
 using Entry = std::unique_ptr<archive_entry, decltype(&archive_entry_free)>;
-
-constexpr std::size_t longest_name = 1000;  // bytes
-constexpr std::size_t piece = std::size_t{1} << 16;
 
 [[noreturn]] void refuse_to_write(fs::path const& path, char const* reason) {
     throw core::MissingError(fmt::format("cannot write {} ({}); free disk space or choose another place",
@@ -38,10 +33,6 @@ std::string reason_of_failure(struct ::archive* writer) {
     if (error > 0) return core::reason_of(error);
     char const* const reason = archive_error_string(writer);
     return reason == nullptr ? "unknown reason" : reason;
-}
-
-[[noreturn]] void refuse_to_read(fs::path const& path, std::string const& reason) {
-    throw core::InputError(fmt::format("{} {}; nothing of it is used", path.string(), reason));
 }
 
 /// libarchive takes names in the letters of the locale. While an object exists, these are UTF-8 in this
@@ -62,33 +53,6 @@ class Utf8Names {
   private:
     locale_t utf8_, before_ = nullptr;
 };
-
-/// A ZIP file that is read from its beginning: without its list of contents, which may be as large as it
-/// likes.
-Reader open_zip(fs::path const& path) {
-    Reader reader(archive_read_new(), archive_read_free);
-    if (!reader || archive_read_support_format_zip_streamable(reader.get()) != ARCHIVE_OK)
-        throw core::MissingError("libarchive cannot read ZIP files here");
-    if (archive_read_open_filename(reader.get(), path.c_str(), piece) != ARCHIVE_OK)
-        refuse_to_read(path, fmt::format("is not a ZIP file ({})", archive_error_string(reader.get())));
-    return reader;
-}
-
-std::string damage(struct ::archive* reader) {
-    char const* const reason = archive_error_string(reader);
-    return fmt::format("is damaged ({})", reason == nullptr ? "unknown reason" : core::harmless(reason));
-}
-
-/// Hands the content of an entry on.
-void read_content(fs::path const& path, struct ::archive* reader, ZipSink const& sink) {
-    std::array<char, piece> buffer{};
-    while (true) {
-        la_ssize_t const count = archive_read_data(reader, buffer.data(), buffer.size());
-        if (count == 0) return;
-        if (count < 0) refuse_to_read(path, damage(reader));
-        sink(std::string_view(buffer.data(), static_cast<std::size_t>(count)));
-    }
-}
 
 }  // namespace
 
@@ -131,30 +95,6 @@ void ZipWriter::finish() {
     state_->file.finish(core::Sync::yes);
 }
 
-void read_zip(fs::path const& path, std::function<ZipSink(std::string const& name)> const& file,
-              std::function<void()> const& done) {
-    Utf8Names const names;
-    Reader const reader = open_zip(path);
-    for (archive_entry* entry = nullptr;;) {
-        int const found = archive_read_next_header(reader.get(), &entry);
-        if (found == ARCHIVE_EOF) break;
-        if (found != ARCHIVE_OK) refuse_to_read(path, damage(reader.get()));
-        char const* const utf8 = archive_entry_pathname_utf8(entry);
-        std::string name = utf8 == nullptr ? "" : utf8;
-        bool const is_folder = name.ends_with('/') || archive_entry_filetype(entry) == AE_IFDIR;
-        if (is_folder && name.ends_with('/')) name.pop_back();
-        if (!is_safe_name(name)) {
-            refuse_to_read(path, fmt::format("holds an entry '{}' that could lead out of its folder", name));
-        }
-        if (is_folder) continue;
-        if (archive_entry_filetype(entry) != AE_IFREG || archive_entry_is_encrypted(entry) != 0) {
-            refuse_to_read(path, fmt::format("holds '{}', which is not an ordinary file", name));
-        }
-        read_content(path, reader.get(), file(name));
-        done();
-    }
-}
-
 std::string first_name_in_zip(fs::path const& path) {
     // PKWARE's APPNOTE.TXT, 4.3.7: the length of the first name stands at byte 26, the name at byte 30.
     std::array<unsigned char, 30> head{};
@@ -167,18 +107,6 @@ std::string first_name_in_zip(fs::path const& path) {
         name.resize(count < 0 ? 0 : static_cast<std::size_t>(count));
     }
     return name;
-}
-
-bool is_safe_name(std::string_view name) {
-    if (name.empty() || name.size() > longest_name || core::harmless(name) != name) return false;
-    if (name.find_first_of("\\:") != std::string_view::npos) return false;
-    for (std::size_t begin = 0; begin <= name.size();) {
-        std::size_t const end = std::min(name.find('/', begin), name.size());
-        std::string_view const part = name.substr(begin, end - begin);
-        if (part.empty() || part == "." || part == ".." || part.size() > 255) return false;
-        begin = end + 1;
-    }
-    return true;
 }
 
 }  // namespace vibrotrough::archive

@@ -22,19 +22,6 @@ void write(std::filesystem::path const& path, Files const& files) {
     zip.finish();
 }
 
-Files read(std::filesystem::path const& path) {
-    Files files;
-    int complete = 0;
-    read_zip(
-        path,
-        [&](std::string const& name) -> ZipSink {
-            return [&text = files[name]](std::string_view piece) { text += piece; };
-        },
-        [&] { ++complete; });
-    EXPECT_EQ(static_cast<std::size_t>(complete), files.size());
-    return files;
-}
-
 Files sample() {
     // Compressible, longer than a piece, empty, and bytes that deflate cannot shorten.
     Files files{{"a.txt", std::string(200'000, 'x')}, {"b/c/empty.csv", ""}, {"b/d.h5", ""}};
@@ -44,13 +31,11 @@ Files sample() {
     return files;
 }
 
-// What is written is read back unchanged, and the same files make the same bytes. (Python's zipfile reads
-// them in end_to_end.archive.)
-TEST(ZipFile, IsReadBackAndReproducible) {
+// The same files make the same bytes. (Python's zipfile reads them back in end_to_end.archive.)
+TEST(ZipFile, IsReproducible) {
     core::TemporaryFolder const folder;
     write(folder.path() / "one.zip", sample());
     write(folder.path() / "two.zip", sample());
-    EXPECT_EQ(read(folder.path() / "one.zip"), sample());
     EXPECT_EQ(core::read_file(folder.path() / "one.zip"), core::read_file(folder.path() / "two.zip"));
     EXPECT_EQ(first_name_in_zip(folder.path() / "one.zip"), "a.txt");
 }
@@ -61,7 +46,6 @@ TEST(ZipFile, NamesAreUtf8) {
     core::TemporaryFolder const folder;
     Files const files{{"größe.txt", "1"}};
     write(folder.path() / "one.zip", files);
-    EXPECT_EQ(read(folder.path() / "one.zip"), files);
     EXPECT_EQ(core::read_file(folder.path() / "one.zip").at(7) & 8, 8);
     EXPECT_EQ(first_name_in_zip(folder.path() / "one.zip"), "größe.txt");
 }
@@ -75,32 +59,6 @@ TEST(ZipFile, AppearsWholeOrNotAtAll) {
     EXPECT_EQ(core::read_file(folder.path() / "one.zip"), before);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
     EXPECT_THROW(ZipWriter(folder.path() / "no folder" / "one.zip"), core::MissingError);
-}
-
-// Every truncation is noticed before the end of the last file, as an error and not as a crash.
-TEST(ZipFile, DamageIsAnError) {
-    core::TemporaryFolder const folder;
-    auto const path = folder.path() / "one.zip";
-    write(path, sample());
-    std::string const whole = core::read_file(path);
-    for (std::size_t length = 0; length < 100'000; length += 9'973) {
-        core::replace_file(path, whole.substr(0, length));
-        EXPECT_THROW(read(path), core::InputError) << length;
-    }
-}
-
-// Names that lead out of a folder, hide something, or steer a terminal are not safe; usual ones are.
-TEST(ZipFile, KnowsSafeNames) {
-    for (char const* name :
-         {"a", "cases/0123456789ab/packing-1/in.liggghts", "..a", "a..", ".hidden", "größe.txt"})
-        EXPECT_TRUE(is_safe_name(name)) << name;
-    for (std::string const name :
-         {"", "/a", "a/", "a//b", ".", "..", "a/../b", "./a", "a\\b", "C:a", "a\nb", "a\x1b[2J", "a\xff"})
-        EXPECT_FALSE(is_safe_name(name)) << name;
-    EXPECT_FALSE(is_safe_name(std::string(256, 'a')));
-    std::string deep = "a";
-    while (deep.size() <= 1000) deep += "/a";
-    EXPECT_FALSE(is_safe_name(deep));
 }
 
 }  // namespace

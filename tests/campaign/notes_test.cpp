@@ -34,7 +34,7 @@ TEST(Notes, AFailureHasCountsThatCanBe) {
 
 TEST(Notes, ACheckpointHasACycleAndTimes) {
     std::string const note = R"({"cycle": 20, "file": "checkpoint.20.restart", "restart_sha256": "a",
-        "commands_sha256": "b", "started": "today", "wall_time": 1.5, "core_time": 1})";
+        "deck_sha256": "b", "started": "today", "wall_time": 1.5, "core_time": 1})";
     auto const fault = [&](auto const&... change) { return fault_with(parse_checkpoint, note, change...); };
     EXPECT_EQ(fault("20", "20"), "");
     EXPECT_EQ(fault("20", "0"), "'cycle' is not a whole number from 1 to 2147483647");

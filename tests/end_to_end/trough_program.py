@@ -13,6 +13,7 @@ import tempfile
 import time
 import tomllib
 import unittest
+import zipfile
 from pathlib import Path
 from typing import ClassVar
 
@@ -287,11 +288,13 @@ class EndToEndTest(unittest.TestCase):
         return self.ask_json("compare", output)
 
     def row_of_bundle(self):
-        """The only row of `compare` from an archive of the campaign."""
-        bundle = self.folder / "bundle.zip"
+        """The only row of `compare` from an archive of the campaign, unpacked by Python's zipfile."""
+        bundle, unpacked = self.folder / "bundle.zip", self.folder / "unpacked"
         done = self.call("archive", self.output, "--output", bundle)
         self.assertEqual(done.returncode, 0, done.stderr)
-        done = self.call("compare", bundle, "--json")
+        with zipfile.ZipFile(bundle) as file:
+            file.extractall(unpacked)
+        done = self.call("compare", unpacked, "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         again = json.loads(done.stdout)
         return (again["cases"] if isinstance(again, dict) else again)[0]

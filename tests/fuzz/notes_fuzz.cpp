@@ -2,7 +2,6 @@
 // can be: finite numbers and counts that are not negative. Where the program writes the note, it is the same
 // when it is written and read again.
 
-#include "archive/bundle_facts.hpp"
 #include "campaign/state/notes.hpp"
 #include "core/hash.hpp"
 #include "core/note.hpp"
@@ -134,9 +133,6 @@ void check_learned(std::string_view text) {
     if (auto const page = believed([&] { return learn::proposed_machines(text); })) {
         require_finite(*page);
         require(!page->at("machines").empty());
-    }
-    if (auto const facts = believed([&] { return archive::parse_facts(text); })) {
-        for (auto const& [id, outcome] : facts->failures) require(!core::has_result(outcome));
     }
 }
 

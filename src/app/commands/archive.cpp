@@ -105,7 +105,8 @@ report where they were made, the versions of all programs that took part, the SH
 (ro-crate-metadata.json), which repositories such as Zenodo and Dataverse know. Its README.txt explains the files. Restart files,
 cycles.csv and frames are left out: the results hold all cycles, and the decks make the rest again.
 
-'vibrotrough compare BUNDLE' checks every file and prints the same table, digit for digit. The same campaign makes the same bytes.
+Unpacked, a bundle is a campaign's folder: 'sha256sum -c SHA256SUMS' in it checks every file, and 'vibrotrough compare FOLDER'
+prints the same table, digit for digit. The same campaign makes the same bytes.
 A bundle names the machines on which it was simulated and the path of the engine.
 
 Exit codes:

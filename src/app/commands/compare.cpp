@@ -3,7 +3,6 @@
 #include "app/exit_code.hpp"
 #include "app/left_aside.hpp"
 #include "app/standard_streams.hpp"
-#include "archive/open_bundle.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "compare/compared_cases.hpp"
@@ -79,27 +78,10 @@ void print_budget(std::vector<compare::Row> const& rows, std::span<compare::Colu
     }
 }
 
-/// A bundle keeps its results for good, but which cases they belong to follows from the decks of this
-/// version.
-void tell_unknown_results(archive::OpenBundle const& bundle, std::vector<compare::Row> const& rows,
-                          std::vector<campaign::CaseOverview> const& cases) {
-    auto const known = static_cast<std::size_t>(
-        std::ranges::count_if(cases, [](auto const& one) { return one.result.has_value(); }));
-    if (known >= bundle.results) return;
-    tell(
-        "vibrotrough: {} of the {} results in this bundle belong to decks that this version writes "
-        "differently and are not among the {} rows; the table that version {} printed is "
-        "tables/compare.csv in the bundle\n",
-        bundle.results - known, bundle.results, rows.size(), bundle.program_version);
-}
-
 int run_compare(CompareArguments const& options) {
-    auto const bundle = archive::open_bundle(options.folder);
-    campaign::Plan const plan = campaign::open_plan(bundle ? bundle->folder : fs::path(options.folder));
-    compare::ComparedCases compared =
-        compare::compared_cases(plan, bundle ? bundle->activity : campaign::activity_in(plan.folder));
+    campaign::Plan const plan = campaign::open_plan(options.folder);
+    compare::ComparedCases compared = compare::compared_cases(plan, campaign::activity_in(plan.folder));
     auto& [cases, rows, columns, outdated] = compared;
-    if (bundle) tell_unknown_results(*bundle, rows, cases);
     tell_left_aside(plan, cases);
     if (outdated > 0)
         tell(
@@ -136,9 +118,7 @@ void add_compare(CLI::App& program, int& exit_code) {
     CLI::App* const command = program.add_subcommand(
         "compare", "Print the measured velocity efficiency of every case beside the point-mass theory");
     command
-        ->add_option("DIR", options->folder,
-                     "Folder of the campaign's results, as given to run --output, or a bundle of "
-                     "'vibrotrough archive', packed or unpacked")
+        ->add_option("DIR", options->folder, "Folder of the campaign's results, as given to run --output")
         ->required();
     CLI::Option* const json = command->add_flag("--json", options->json, "Print JSON for scripts");
     CLI::Option* const csv =
@@ -198,9 +178,6 @@ the name that it has in the campaign file; --sort and --filter take these names,
               its width is known (trough.width, or side walls), else per metre of width
   mode        how the theory's point mass and the layer move within a period
 
-The files of a bundle are checked against its checksums first, and one that was changed is named. A packed bundle is
-unpacked into a private folder below TMPDIR, which is removed again.
-
 With --stages, speed is that of the layer at the end of the stage and theory that of a point mass for which the drive of
 this stage never ends; 'distance' is how far the layer moves in the stage, and 'to speed' the time until its speed has
 changed by 95 % of what it changes.
@@ -216,7 +193,7 @@ cycles do not help where it is the numerical one.
 
 Exit codes:
     0  all well
-    2  the input is wrong, or a bundle was changed
+    2  the input is wrong
 
 Examples:
   vibrotrough compare runs/demo --csv > demo.csv

@@ -2,7 +2,6 @@
 #include "app/exit_code.hpp"
 #include "app/left_aside.hpp"
 #include "app/script_folder.hpp"
-#include "archive/open_bundle.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "compare/compared_cases.hpp"
@@ -73,10 +72,8 @@ std::string name_of(std::string const& path) {
 
 /// The rows of compare, as far as the page shows them.
 Json cases_of(std::string const& folder) {
-    auto const bundle = archive::open_bundle(folder);
-    campaign::Plan const plan = campaign::open_plan(bundle ? bundle->folder : fs::path(folder));
-    compare::ComparedCases const compared =
-        compare::compared_cases(plan, bundle ? bundle->activity : campaign::activity_in(plan.folder));
+    campaign::Plan const plan = campaign::open_plan(folder);
+    compare::ComparedCases const compared = compare::compared_cases(plan, campaign::activity_in(plan.folder));
     tell_left_aside(plan, compared.cases);
     Json cases = Json::array();
     prepare::CasePreparer preparer;
@@ -169,7 +166,7 @@ void add_page(CLI::App& program, int& exit_code) {
         "page", "Write a page for browsers that computes speed and mass flow while you change the machine");
     command->add_option(
         "RESULTS", options->results,
-        "Folder of a campaign's results, or a bundle of 'vibrotrough archive', whose cases are "
+        "Folder of a campaign's results, whose cases are "
         "drawn as points with bars; a FILE.json that 'vibrotrough design --json' printed, with whose "
         "machine the page begins, or two, which it compares");
     command->add_option("--output", options->output, "The file that is written")
