@@ -171,7 +171,7 @@ std::string first_name_in_zip(fs::path const& path) {
 
 bool is_safe_name(std::string_view name) {
     if (name.empty() || name.size() > longest_name || core::harmless(name) != name) return false;
-    if (name.find_first_of("\\:") != std::string_view::npos) return false;
+    if (name.find_first_of("\\:\n\t") != std::string_view::npos) return false;
     for (std::size_t begin = 0; begin <= name.size();) {
         std::size_t const end = std::min(name.find('/', begin), name.size());
         std::string_view const part = name.substr(begin, end - begin);
