@@ -11,7 +11,6 @@
 #include <cstring>
 #include <optional>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spawn.h>
@@ -39,11 +38,6 @@ std::optional<int> run_python(std::vector<std::string> words, fs::path const& fo
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
     posix_spawn_file_actions_adddup2(&actions, pipe[1], proof_of_modules);
-    bool const has_output = (::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) != O_RDONLY;
-    if (!has_output) posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    // Standard output that was closed: the script does all of its work, and main() finds that nobody could
-    // read what it said.
-    if (!has_output) std::fputc('\n', stdout);
     std::fflush(stdout);
     pid_t child = 0;
     int const failure = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);

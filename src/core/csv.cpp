@@ -117,7 +117,7 @@ void CsvReader::check_columns() const {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
         std::string const name = columns_[i].substr(0, longest_shown);
         if (columns_[i].find_first_of(std::string_view("\0\r", 2)) != std::string::npos)
-            fail(fmt::format("the name of column '{}' contains control characters", name),
+            fail(fmt::format("the name of column {} contains control characters", i + 1),
                  "save the file as CSV in UTF-8 with line ends of Linux or Windows");
         if (columns_[i].empty())
             fail(fmt::format("column {} has no name", i + 1), "write a name or remove the separator");

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include <boost/locale/encoding_utf.hpp>
@@ -95,38 +94,6 @@ std::string utf8_of_utf16(std::string_view text) {
         units += static_cast<char16_t>(static_cast<unsigned char>(text[i + low]) |
                                        static_cast<unsigned char>(text[i + 1 - low]) << 8);
     return boost::locale::conv::utf_to_utf<char>(units.data(), units.data() + units.size());
-}
-
-std::string utf8_of_bytes(std::string_view bytes) {
-    std::string text;
-    while (!bytes.empty()) {
-        std::size_t const length = first_of(bytes).length;
-        if (length > 0) {
-            text += bytes.substr(0, length);
-        } else {
-            text += '\0';
-            text += fmt::format("{:02x}", static_cast<unsigned char>(bytes.front()));
-        }
-        bytes.remove_prefix(std::max<std::size_t>(length, 1));
-    }
-    return text;
-}
-
-std::string bytes_of_utf8(std::string_view text) {
-    std::string bytes;
-    while (!text.empty()) {
-        unsigned byte = 0;
-        char const* const digits = text.data() + 1;
-        if (text.front() == '\0' && text.size() > 2 &&
-            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
-            bytes += static_cast<char>(byte);
-            text.remove_prefix(3);
-        } else {
-            bytes += text.front();
-            text.remove_prefix(1);
-        }
-    }
-    return bytes;
 }
 
 std::string plain_number(double value, int digits) {

@@ -28,13 +28,6 @@ bool is_utf16(std::string_view text);
 /// Such a text in UTF-8, without its mark. Bytes that do not form a character are left out.
 std::string utf8_of_utf16(std::string_view text);
 
-/// Bytes, such as those of a path, as a text that is UTF-8 and can stand in a JSON file: a byte that is not
-/// UTF-8 becomes a NUL, which no path holds, and two hexadecimal digits.
-std::string utf8_of_bytes(std::string_view bytes);
-
-/// The bytes of such a text.
-std::string bytes_of_utf8(std::string_view text);
-
 /// A number with so many digits and without a power of ten, where that has at most 15 digits: "1150" and not
 /// "1.15e+03".
 std::string plain_number(double value, int digits);

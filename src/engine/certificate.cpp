@@ -54,9 +54,9 @@ ProbeResult read_probe(Json const& json) {
 }
 
 Json describe(EngineIdentity const& engine) {
-    return {{"program", core::utf8_of_bytes(engine.program)},
+    return {{"program", core::harmless(engine.program)},
             {"program_sha256", engine.program_sha256},
-            {"library", core::utf8_of_bytes(engine.library)},
+            {"library", core::harmless(engine.library)},
             {"library_sha256", engine.library_sha256},
             {"version", engine.version},
             {"probes_sha256", engine.probes_sha256}};
@@ -109,17 +109,16 @@ std::optional<Certificate> parse_certificate(std::string_view text) {
         json.erase("content_sha256");
         if (note::text(json, "format") != format_name || core::sha256_hex(json.dump()) != digest) return {};
         Json const& engine = note::object(json, "engine");
-        Certificate certificate{
-            {core::bytes_of_utf8(note::text(engine, "program")), note::text(engine, "program_sha256"),
-             core::bytes_of_utf8(note::text(engine, "library")), note::text(engine, "library_sha256"),
-             note::text(engine, "version"), note::text(engine, "probes_sha256")},
-            note::text(json, "program_version"),
-            note::text(json, "git_commit"),
-            note::text(json, "host"),
-            note::text(json, "probed"),
-            known_or_nan(json, "grain_steps_per_cpu_second", 0),
-            note::count(json, "speed_grains", 0),
-            {}};
+        Certificate certificate{{note::text(engine, "program"), note::text(engine, "program_sha256"),
+                                 note::text(engine, "library"), note::text(engine, "library_sha256"),
+                                 note::text(engine, "version"), note::text(engine, "probes_sha256")},
+                                note::text(json, "program_version"),
+                                note::text(json, "git_commit"),
+                                note::text(json, "host"),
+                                note::text(json, "probed"),
+                                known_or_nan(json, "grain_steps_per_cpu_second", 0),
+                                note::count(json, "speed_grains", 0),
+                                {}};
         for (Json const& probe : note::list(json, "probes")) certificate.probes.push_back(read_probe(probe));
         return certificate;
     } catch (note::Fault const&) {

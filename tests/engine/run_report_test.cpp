@@ -62,7 +62,7 @@ TEST_F(RunReportTest, FailuresHaveNames) {
               core::Outcome::out_of_memory);
     EXPECT_EQ(lost.message, "ERROR: Lost atoms: original 500 current 499 (thermo.cpp:427)");
     EXPECT_EQ(examine("ERROR on proc 0: Cannot open file\x01\xff.stl\n", {1, 0}).message,
-              "ERROR on proc 0: Cannot open file??.stl");
+              "ERROR on proc 0: Cannot open file\\x01\\xff.stl");
     EXPECT_EQ(examine("VIBROTROUGH FAILED insertion-incomplete: 499 of 500\n").failure,
               core::Outcome::insertion_incomplete);
     RunReport const restless = examine("VIBROTROUGH FAILED not-settled: kinetic energy\n");

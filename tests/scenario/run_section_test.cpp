@@ -59,7 +59,6 @@ TEST(RunSection, NamesThatCouldBeCommandsAreRefused) {
             } catch (core::InputError const& error) {
                 std::string const message = error.what();
                 EXPECT_TRUE(message.starts_with("campaign.toml:")) << message;
-                EXPECT_EQ(message.find('\n'), std::string::npos) << message;
             }
         }
     }

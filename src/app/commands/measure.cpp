@@ -101,7 +101,7 @@ void print_json(evaluate::HandRun const& run) {
                     {"cycles_discarded", e.discarded},
                     {"cycles_measured", e.measured},
                     {"not_covered", open.empty() ? Json(nullptr) : Json(open)},
-                    {"scenario", core::utf8_of_bytes(run.scenario_file.string())},
+                    {"scenario", run.scenario_file.string()},
                     {"packings", packings}};
     fmt::print("{}\n", json.dump(2, ' ', true, Json::error_handler_t::replace));
 }

@@ -168,7 +168,8 @@ scenario::Campaign read_frozen_campaign(fs::path const& folder) {
 }
 
 Plan open_plan(fs::path const& folder) {
-    return make_plan(read_frozen_campaign(folder), folder, read_engine(folder).version);
+    scenario::Campaign const campaign = read_frozen_campaign(folder);
+    return make_plan(campaign, folder, read_engine(folder).version);
 }
 
 engine::Engine read_engine(fs::path const& folder) {

@@ -73,7 +73,7 @@ LostTask parse_lost_task(std::string_view text) {
 
 EngineNote parse_engine(std::string_view text) {
     Json const json = note::parse(text);
-    EngineNote engine{core::bytes_of_utf8(note::text(json, "program")),
+    EngineNote engine{note::text(json, "program"),
                       note::text(json, "version"),
                       note::text_if_any(json, "binary_sha256"),
                       {}};
@@ -85,7 +85,7 @@ EngineNote parse_engine(std::string_view text) {
 }
 
 std::string to_json(EngineNote const& note) {
-    Json json{{"program", core::utf8_of_bytes(note.program)}, {"version", note.version}};
+    Json json{{"program", core::harmless(note.program)}, {"version", note.version}};
     if (!note.binary_sha256.empty()) json["binary_sha256"] = note.binary_sha256;
     if (!note.templates.empty()) json["templates"] = note.templates;
     return json.dump(2) + "\n";

@@ -61,7 +61,7 @@ LostTask parse_lost_task(std::string_view text);
 
 /// The engine of a campaign, and what is frozen in the campaign's folder.
 struct EngineNote {
-    std::string program;                 ///< bytes of the path
+    std::string program;                 ///< its path
     std::string version;                 ///< as the engine says it
     std::string binary_sha256;           ///< empty when it is not known
     std::vector<std::string> templates;  ///< names of the deck's templates; empty: the program's own

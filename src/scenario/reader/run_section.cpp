@@ -85,7 +85,8 @@ void set_extra_options(RunSettings& s, GivenValue const& v) {
 template <auto section>
 void set_setup(RunSettings& s, GivenValue const& v) {
     for (std::string const& text : v.words()) {
-        bool const is_line = !text.empty() && text.size() <= 500 && core::harmless(text) == text;
+        bool const is_line = !text.empty() && text.size() <= 500 && core::harmless(text) == text &&
+                             text.find('\n') == text.npos;
         if (!is_line) v.refuse(text, "a line has 1 to 500 printable characters");
         (s.*section).setup.push_back(text);
     }
