@@ -1,6 +1,7 @@
 #include "learn/way_out.hpp"
 
 #include "core/text.hpp"
+#include "learn/layer_search.hpp"
 #include "learn/machine_keys.hpp"
 #include "theory/design.hpp"
 
@@ -18,14 +19,15 @@ namespace vibrotrough::learn {
 namespace {
 
 constexpr double given_up = 1e4;  // a largest value that no longer limits
-constexpr theory::DriveSearchSettings short_search{4000, 1000};
+
+using DriveFunction = std::function<double(theory::Drive const&)>;
 
 /// A limit of a task.
 struct Limit {
     std::string_view name, unit;
     double in_unit;         ///< what one in SI is in the unit
     theory::Range allowed;  ///< of a quantity above zero
-    theory::DriveFunction value;
+    DriveFunction value;
     std::function<void(DesignTask&)> give_up;
 };
 
@@ -36,16 +38,19 @@ double hardest_landing(KnownFriction const& friction, theory::Drive const& drive
 }
 
 /// The drive that is best in something among those that keep all limits of a task, whatever it carries.
-std::optional<theory::Drive> best_within(DesignTask const& task, theory::DriveFunction const& merit) {
-    std::vector<theory::DriveFunction> excesses;
+std::optional<theory::Drive> best_within(DesignTask const& task, DriveFunction const& merit) {
+    LayerGoal goal;
+    goal.merit = [&](DesignLayer const& layer) { return merit(layer.drive); };
     for (DesignModel const& model : task.models)
-        if (!model.is_point_mass) excesses.push_back(model.excess);
+        if (!model.is_point_mass)
+            goal.excesses.emplace_back([&](DesignLayer const& layer) { return model.excess(layer.drive); });
     if (task.landing_speed)
-        excesses.emplace_back([&](theory::Drive const& drive) {
-            return hardest_landing(task.friction, drive) / *task.landing_speed - 1;
+        goal.excesses.emplace_back([&](DesignLayer const& layer) {
+            return hardest_landing(task.friction, layer.drive) / *task.landing_speed - 1;
         });
     try {
-        return theory::best_drive(allowed_space(task), merit, excesses, short_search);
+        auto const found = best_layers(LayerSpace(allowed_space(task), {task.depth.low, task.depth.low}), goal);
+        return found.empty() ? std::nullopt : std::optional(found.front().layer.drive);
     } catch (std::invalid_argument const&) {
         return {};
     }
