@@ -22,14 +22,11 @@ measure::Start start_of(int packing) {
 
 core::Outcome outcome_of(measure::CaseEstimate const& estimate, scenario::Scenario const& scenario) {
     if (has_given_length(scenario)) return core::Outcome::finished;
-    constexpr double rounding = 1 + 1e-12;  // the policy ends a case by the squares of the same numbers
-    double const wanted = rounding * scenario.measure.half_width;
-    bool const is_precise =
-        estimate.half_width &&
-        prepare::whole_half_width(*estimate.half_width, prepare::numerical_errors(scenario)) <= wanted;
     if (estimate.steadiness == measure::Steadiness::branching) return core::Outcome::bistable_or_slow;
     if (estimate.steadiness == measure::Steadiness::drifting) return core::Outcome::not_steady;
-    return is_precise ? core::Outcome::finished : core::Outcome::not_precise;
+    bool const is_enough =
+        prepare::can_be_finished(scenario) && measure::is_precise(estimate, wanted_statistics(scenario));
+    return is_enough ? core::Outcome::finished : core::Outcome::not_precise;
 }
 
 measure::CaseEstimate estimate_of(std::vector<measure::PackingValues> const& packings,
@@ -123,10 +120,8 @@ std::string what_statistics_would_take(store::CaseRecord const& record) {
 
 std::string what_it_would_take(store::CaseRecord const& record) {
     scenario::Scenario const& s = record.scenario;
-    auto const& reached = record.estimate.half_width;
-    bool const are_precise = reached && *reached <= wanted_statistics(s).half_width;
     if (prepare::can_be_finished(s)) return what_statistics_would_take(record);
-    if (are_precise) return what_numerics_would_take(s);
+    if (measure::is_precise(record.estimate, wanted_statistics(s))) return what_numerics_would_take(s);
     return what_statistics_would_take(record) + "; besides, " + what_numerics_would_take(s);
 }
 

@@ -186,6 +186,10 @@ CaseEstimate estimate_case(std::span<PackingValues const> packings, Precision co
     return estimate;
 }
 
+bool is_precise(CaseEstimate const& estimate, Precision const& wanted) {
+    return estimate.half_width && *estimate.half_width <= wanted.half_width;
+}
+
 std::optional<int> packings_needed(CaseEstimate const& estimate, Precision const& wanted) {
     constexpr int most = 1'000'000;
     if (!estimate.deviation) return {};

@@ -126,7 +126,7 @@ class Replay {
     }
 
     /// Whether what is left of a start-up makes an interval too wide that is narrow enough without it.
-    bool wants_drift_removed() const { return *estimate_.half_width > wanted_.half_width; }
+    bool wants_drift_removed() const { return !measure::is_precise(estimate_, wanted_); }
 
     /// For a case that is not steady: more cycles, and at the end enough packings to report both branches.
     bool settle(Round& round) const {
