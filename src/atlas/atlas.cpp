@@ -31,7 +31,7 @@ std::vector<Outside> of_another_kind(prepare::PreparedCase const& p) {
     add(is_clump(s.grains), "grains.shape", fmt::format("grains of the shape {}", s.grains.shape));
     add(p.materials.size() > 1, "materials", "several materials");
     add(s.grains.rotation == scenario::Rotation::blocked, "grains.rotation", "grains that do not rotate");
-    add(s.engine.contact == scenario::ContactModel::hooke, "engine.contact", "contacts other than Hertz'");
+    add(s.engine.contact != scenario::ContactModel::hertz, "engine.contact", "contacts other than Hertz'");
     add(s.engine.cohesion > 0, "engine.cohesion", "cohesion");
     add(s.engine.extra != nullptr || s.engine.templates != nullptr, "engine",
         "commands of the engine of your own");

@@ -1,7 +1,6 @@
 #include "deck/campaign_check.hpp"
 
 #include "deck/deck.hpp"
-
 #include "deck/estimates.hpp"
 #include "scenario/reader/swept_keys.hpp"
 

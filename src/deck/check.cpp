@@ -3,6 +3,7 @@
 #include "deck/estimates.hpp"
 #include "deck/findings.hpp"
 #include "deck/open_trough.hpp"
+#include "prepare/contact.hpp"
 #include "prepare/softness.hpp"
 #include "theory/unusual.hpp"
 
@@ -54,10 +55,9 @@ void check_overlaps(std::vector<Finding>& findings, prepare::PreparedCase const&
     scenario::Scenario const& s = c.scenario;
     prepare::TimeGrid const& time = c.time;
     double const diameter = mean_diameter(s);
-    bool const hooke = s.engine.contact == scenario::ContactModel::hooke;
-    char const* const stiffen =
-        hooke ? "raise it: the overlap scales as E^(-4/5) at rest and as E^(-2/5) at impact"
-              : "raise it: the overlap scales as E^(-2/3) at rest and as E^(-2/5) at impact";
+    std::string const stiffen =
+        fmt::format("raise it: the overlap scales as E^(-{:.2g}) at rest and as E^(-0.4) at impact",
+                    prepare::contact_of(s, time.impact_speed)->stiffness_exponent());
     findings.push_back(most("overlap under the layer's own weight / diameter", "grains.youngs_modulus",
                             overlap_under(c, bottom_load(c)) / diameter, 0.01, 0.1, stiffen));
     findings.push_back(most("overlap of a grain at impact at twice the trough's speed / diameter",
@@ -72,9 +72,9 @@ void check_cohesion(std::vector<Finding>& findings, prepare::PreparedCase const&
     scenario::Scenario const& s = c.scenario;
     if (s.engine.cohesion == 0) return;
     char const* const key = "engine.cohesion";
-    if (s.engine.contact == scenario::ContactModel::hooke) {
+    if (auto const ratio = attraction_ratio(c)) {
         findings.push_back(
-            most("attraction / spring of a contact", key, attraction_ratio(c), 0.1, 1,
+            most("attraction / spring of a contact", key, *ratio, 0.1, 1,
                  "lower it, or write contact = \"hertz\": both are proportional to the overlap, "
                  "so that grains soften but never stick"));
         return;

@@ -6,6 +6,7 @@
 #include "deck/estimates.hpp"
 #include "deck/moving_meshes.hpp"
 #include "deck/stage_data.hpp"
+#include "prepare/contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -161,7 +162,7 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("types", std::to_string(types));
     data.set("other_types", fmt::format("{}", fmt::join(type_names, ", ")));
     data.set("materials", describe_materials(n));
-    data.set("hooke", !block && s.engine.contact == scenario::ContactModel::hooke);
+    data.set(std::string(name_of(s.engine.contact)), !block);
     data.set("coheres", s.engine.cohesion > 0);
     data.set("cohesion", text(s.engine.cohesion));
     data.set("cohesions", repeated(types * types, s.engine.cohesion));
@@ -241,8 +242,9 @@ void describe_drive(core::TemplateData& data, prepare::PreparedCase const& n) {
     data.set("steps_per_cycle", std::to_string(time.steps_per_cycle));
     data.set("rayleigh_percent", fmt::format("{:.3g}", 100 * time.rayleigh_fraction));
     data.set("hertz_percent", fmt::format("{:.3g}", 100 * time.contact_fraction));
-    bool const hooke = s.engine.contact == scenario::ContactModel::hooke;
-    data.set("contact_name", s.layer.block != scenario::Block::none ? "block's" : hooke ? "Hooke" : "Hertz");
+    data.set("contact_name", s.layer.block != scenario::Block::none
+                                 ? "block's"
+                                 : std::string(prepare::contact_of(s, 1)->name()));
     data.set("impact_speed", fmt::format("{:.3g}", time.impact_speed));
 }
 

@@ -29,14 +29,13 @@ double wear_bytes(scenario::Scenario const& s) {
     return 600 + 130 * 2 * std::ceil(s.layer.length / edge) * std::ceil(s.layer.width / edge);
 }
 
-/// Whether the contacts are those of Hertz without attraction, whose formulas are closed.
-bool is_plain_hertz(scenario::EnginePlan const& engine) {
-    return engine.contact == scenario::ContactModel::hertz && engine.cohesion == 0;
-}
-
 /// A mean grain on the trough.
 prepare::ContactPair mean_grain(scenario::Scenario const& s) {
     return {mean_diameter(s) / 2, mean_density(s) * mean_grain_volume(s)};
+}
+
+std::unique_ptr<prepare::Contact const> contact_of(prepare::PreparedCase const& c) {
+    return prepare::contact_of(c.scenario, c.time.impact_speed);
 }
 
 double sphere_count(prepare::PreparedCase const& c) {
@@ -55,44 +54,27 @@ double bottom_load(prepare::PreparedCase const& c) {
 }
 
 double overlap_under(prepare::PreparedCase const& c, double force) {
-    scenario::Scenario const& s = c.scenario;
-    if (!is_plain_hertz(s.engine)) return overlap_under_force(s, mean_grain(s), force, c.time.impact_speed);
-    return std::pow(0.75 * force / (prepare::effective_modulus(s.grains) * std::sqrt(mean_diameter(s) / 2)),
-                    2.0 / 3);
+    return contact_of(c)->overlap_under(mean_grain(c.scenario), force);
 }
 
 double overlap_at_impact(prepare::PreparedCase const& c, double speed) {
-    scenario::Scenario const& s = c.scenario;
-    if (!is_plain_hertz(s.engine)) return overlap_of_impact(s, mean_grain(s), speed, c.time.impact_speed);
-    double const energy = mean_mass(s) * speed * speed / 2;
-    return std::pow(
-        15.0 / 8 * energy / (prepare::effective_modulus(s.grains) * std::sqrt(mean_diameter(s) / 2)), 0.4);
+    return contact_of(c)->overlap_of_impact(mean_grain(c.scenario), speed);
 }
 
 double impact_duration(prepare::PreparedCase const& c, double speed) {
     scenario::Scenario const& s = c.scenario;
     if (s.layer.block != scenario::Block::none) return 1 / (s.trough.frequency * s.solver.block_stiffness);
-    if (s.engine.contact == scenario::ContactModel::hooke) {
-        double const stiffness = hooke_stiffness(s.grains, mean_grain(s), c.time.impact_speed);
-        return prepare::linear_impact(stiffness, mean_mass(s), prepare::damping_ratio(s.trough.restitution))
-            .duration;
-    }
-    double const modulus = prepare::effective_modulus(s.grains), mass = mean_mass(s);
-    return 2.87 * std::pow(mass * mass / (mean_diameter(s) / 2 * modulus * modulus * speed), 0.2);
+    return contact_of(c)->duration(mean_grain(s), speed, s.trough.restitution);
 }
 
 double bond_number(prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
-    if (s.engine.contact == scenario::ContactModel::hooke) return 0;
     double const weight = mean_mass(s) * scenario::gravity * std::cos(s.trough.inclination);
-    return pull_off_force(s.grains, s.engine.cohesion, mean_grain(s)) / weight;
+    return contact_of(c)->pull_off_force(mean_grain(s)) / weight;
 }
 
-double attraction_ratio(prepare::PreparedCase const& c) {
-    scenario::Scenario const& s = c.scenario;
-    prepare::ContactPair const pair = mean_grain(s);
-    return attraction_per_overlap(s.engine.cohesion, pair) /
-           hooke_stiffness(s.grains, pair, c.time.impact_speed);
+std::optional<double> attraction_ratio(prepare::PreparedCase const& c) {
+    return contact_of(c)->attraction_ratio(mean_grain(c.scenario));
 }
 
 double flight_time(prepare::PreparedCase const& c) {

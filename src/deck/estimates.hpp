@@ -11,31 +11,25 @@ namespace vibrotrough::deck {
 /// one per d^2 of floor. Forces in a packing scatter about this mean; three times the mean is not rare.
 double bottom_load(prepare::PreparedCase const& prepared);
 
-/// Hertz overlap of a grain on the trough under `force` (N), m: (3 F / (4 E* sqrt(R)))^(2/3) with E* = E / (2
-/// (1 - nu^2)) (Johnson, Contact Mechanics, 1985, section 4.2; trough and grain of the same material). With
-/// cohesion or `contact = "hooke"`, see prepare/contact.hpp.
+/// Overlap of a mean grain on the trough under `force` (N), m. For this and what follows see
+/// prepare::Contact.
 double overlap_under(prepare::PreparedCase const& prepared, double force);
 
-/// Largest overlap of a single grain that hits the trough with `speed` (m/s), m. All its kinetic energy
-/// becomes energy of the Hertz contact, m v^2 / 2 = 8/15 E* sqrt(R) d^(5/2) (Johnson, section 11.4). Damping
-/// makes it smaller. With cohesion or `contact = "hooke"`, see prepare/contact.hpp.
+/// Largest overlap of a mean grain that hits the trough with `speed` (m/s), m.
 double overlap_at_impact(prepare::PreparedCase const& prepared, double speed);
 
-/// Duration of that impact, s: 2.87 (m^2 / (R E*^2 v))^(1/5) (Johnson, section 11.4). For `contact =
-/// "hooke"`, see prepare::linear_impact(). For a block it is given by solver.block_stiffness. Attraction,
-/// which makes a contact longer, is left out.
+/// Duration of that impact, s. For a block it is given by solver.block_stiffness.
 double impact_duration(prepare::PreparedCase const& prepared, double speed);
 
 /// Bond number of a grain on the trough: the pull that separates them over the grain's weight normal to the
 /// trough. The granular Bond number is the ratio of attraction to weight; layers are cohesive when it is
-/// large against 1 (Castellanos, Advances in Physics 54, 2005, 263). The pull is that of
-/// prepare::pull_off_force(); between two grains it is a quarter of that. 0 for `contact = "hooke"`, where
-/// spring and attraction are both proportional to the overlap, so that no pull is held.
+/// large against 1 (Castellanos, Advances in Physics 54, 2005, 263). Between two grains the
+/// pull is a quarter of that. 0 where a contact holds no pull.
 double bond_number(prepare::PreparedCase const& prepared);
 
-/// Attraction over the force of the spring of `contact = "hooke"`, both proportional to the overlap, of a
-/// grain on the trough. From 1 on, grains fall into each other.
-double attraction_ratio(prepare::PreparedCase const& prepared);
+/// Attraction over the force of the spring of a grain on the trough, where both are proportional to the
+/// overlap: from 1 on, grains fall into each other.
+std::optional<double> attraction_ratio(prepare::PreparedCase const& prepared);
 
 /// Longest flight of the point mass (Sloot & Kruyt, Eq. 15), s; 0 when it stays on the trough.
 double flight_time(prepare::PreparedCase const& prepared);

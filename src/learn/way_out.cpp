@@ -49,7 +49,8 @@ std::optional<theory::Drive> best_within(DesignTask const& task, DriveFunction c
             return hardest_landing(task.friction, layer.drive) / *task.landing_speed - 1;
         });
     try {
-        auto const found = best_layers(LayerSpace(allowed_space(task), {task.depth.low, task.depth.low}), goal);
+        auto const found =
+            best_layers(LayerSpace(allowed_space(task), {task.depth.low, task.depth.low}), goal);
         return found.empty() ? std::nullopt : std::optional(found.front().layer.drive);
     } catch (std::invalid_argument const&) {
         return {};

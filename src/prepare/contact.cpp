@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 namespace vibrotrough::prepare {
 namespace {
@@ -69,27 +70,92 @@ double pull_off_force(scenario::Grains const& grains, double cohesion, ContactPa
     return 2 * std::pow(std::numbers::pi * cohesion, 3) / 3 * std::pow(pair.radius / modulus, 2);
 }
 
-double overlap_under_force(scenario::Scenario const& s, ContactPair const& pair, double force, double speed) {
-    double const attraction = attraction_per_overlap(s.engine.cohesion, pair);
-    if (s.engine.contact == scenario::ContactModel::hooke) {
-        double const net = hooke_stiffness(s.grains, pair, speed) - attraction;
+namespace {
+
+/// F = 4/3 E* sqrt(R*) d^(3/2) - 2 pi R* w d, with the energy density w of the attraction.
+class HertzContact : public Contact {
+  public:
+    explicit HertzContact(scenario::Scenario const& s) : grains_(s.grains), cohesion_(s.engine.cohesion) {}
+
+    std::string_view name() const override { return "Hertz"; }
+
+    /// 2.87 (m*^2 / (R* E*^2 v))^(1/5) (Johnson, Contact Mechanics, 1985, section 11.4).
+    double duration(ContactPair const& pair, double speed, double) const override {
+        double const modulus = effective_modulus(grains_);
+        return 2.87 * std::pow(pair.mass * pair.mass / (pair.radius * modulus * modulus * speed), 0.2);
+    }
+
+    /// Without attraction (3 F / (4 E* sqrt(R*)))^(2/3) (Johnson, section 4.2).
+    double overlap_under(ContactPair const& pair, double force) const override {
+        double const root =
+            balance(hertz_stiffness(grains_, pair), attraction_per_overlap(cohesion_, pair), force, 2);
+        return root * root;
+    }
+
+    /// 2/5 K d^(5/2) = attraction d^2 / 2 + energy, in sqrt(d) (Johnson, section 11.4).
+    double overlap_of_impact(ContactPair const& pair, double speed) const override {
+        double const energy = pair.mass * speed * speed / 2;
+        double const root = balance(0.4 * hertz_stiffness(grains_, pair),
+                                    attraction_per_overlap(cohesion_, pair) / 2, energy, 4);
+        return root * root;
+    }
+
+    double pull_off_force(ContactPair const& pair) const override {
+        return prepare::pull_off_force(grains_, cohesion_, pair);
+    }
+    std::optional<double> attraction_ratio(ContactPair const&) const override { return {}; }
+    double stiffness_exponent() const override { return 2.0 / 3; }
+
+  private:
+    scenario::Grains grains_;
+    double cohesion_;
+};
+
+/// F = (k - 2 pi R* w) d.
+class HookeContact : public Contact {
+  public:
+    HookeContact(scenario::Scenario const& s, double speed)
+        : grains_(s.grains), cohesion_(s.engine.cohesion), speed_(speed) {}
+
+    std::string_view name() const override { return "Hooke"; }
+
+    double duration(ContactPair const& pair, double, double restitution) const override {
+        return linear_impact(spring(pair), pair.mass, damping_ratio(restitution)).duration;
+    }
+    double overlap_under(ContactPair const& pair, double force) const override {
+        double const net = net_spring(pair);
         return net > 0 ? force / net : std::numeric_limits<double>::infinity();
     }
-    double const root = balance(hertz_stiffness(s.grains, pair), attraction, force, 2);  // sqrt(d)
-    return root * root;
-}
-
-double overlap_of_impact(scenario::Scenario const& s, ContactPair const& pair, double speed,
-                         double hooke_speed) {
-    double const attraction = attraction_per_overlap(s.engine.cohesion, pair);
-    double const energy = pair.mass * speed * speed / 2;
-    if (s.engine.contact == scenario::ContactModel::hooke) {
-        double const net = hooke_stiffness(s.grains, pair, hooke_speed) - attraction;
-        return net > 0 ? std::sqrt(2 * energy / net) : std::numeric_limits<double>::infinity();
+    double overlap_of_impact(ContactPair const& pair, double speed) const override {
+        double const net = net_spring(pair);
+        return net > 0 ? speed * std::sqrt(pair.mass / net) : std::numeric_limits<double>::infinity();
     }
-    // 2/5 K d^(5/2) = attraction d^2 / 2 + energy, in sqrt(d).
-    double const root = balance(0.4 * hertz_stiffness(s.grains, pair), attraction / 2, energy, 4);
-    return root * root;
+    double pull_off_force(ContactPair const&) const override { return 0; }
+    std::optional<double> attraction_ratio(ContactPair const& pair) const override {
+        return attraction_per_overlap(cohesion_, pair) / spring(pair);
+    }
+    double stiffness_exponent() const override { return 4.0 / 5; }
+
+  private:
+    double spring(ContactPair const& pair) const { return hooke_stiffness(grains_, pair, speed_); }
+    double net_spring(ContactPair const& pair) const {
+        return spring(pair) - attraction_per_overlap(cohesion_, pair);
+    }
+
+    scenario::Grains grains_;
+    double cohesion_, speed_;
+};
+
+}  // namespace
+
+std::unique_ptr<Contact const> contact_of(scenario::Scenario const& scenario, double speed) {
+    switch (scenario.engine.contact) {
+        case scenario::ContactModel::hertz:
+            return std::make_unique<HertzContact>(scenario);
+        case scenario::ContactModel::hooke:
+            return std::make_unique<HookeContact>(scenario, speed);
+    }
+    throw std::invalid_argument("no such contact model");
 }
 
 }  // namespace vibrotrough::prepare

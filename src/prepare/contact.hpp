@@ -2,6 +2,10 @@
 
 #include "scenario/model/scenario.hpp"
 
+#include <memory>
+#include <optional>
+#include <string_view>
+
 /// @file
 /// Formulas of a single contact: what it takes to choose a time step and to check a case before it runs.
 
@@ -55,17 +59,34 @@ double attraction_per_overlap(double cohesion, ContactPair const& pair);
 /// F = (2 pi^3 / 3) w^3 R*^2 / E*^2.
 double pull_off_force(scenario::Grains const& grains, double cohesion, ContactPair const& pair);
 
-/// The overlap under a force that presses (N), m: where spring, attraction and force balance. For Hertz
-/// 4/3 E* sqrt(R*) d^(3/2) - 2 pi R* w d = F; for Hooke (k - 2 pi R* w) d = F, infinite when the attraction
-/// is larger than the spring.
-/// @param speed  m/s, for which the spring of Hooke was chosen
-double overlap_under_force(scenario::Scenario const& scenario, ContactPair const& pair, double force,
-                           double speed);
+/// The contact model of a case: its answers to all that is asked of one before a case runs. A third model is
+/// a class here, a word of `engine.contact`, and its lines in input_templates/contact.mustache.
+class Contact {
+  public:
+    virtual ~Contact() = default;
+    /// Its name in comments of the deck, such as "Hertz".
+    virtual std::string_view name() const = 0;
+    /// Duration of an impact, s; attraction, which makes it longer, is left out. @param speed  m/s
+    virtual double duration(ContactPair const& pair, double speed, double restitution) const = 0;
+    /// The overlap under a force that presses (N), m: where spring, attraction and force balance; infinite
+    /// when the attraction is larger than the spring.
+    virtual double overlap_under(ContactPair const& pair, double force) const = 0;
+    /// The largest overlap of an undamped impact, m: where the kinetic energy and the work of the attraction,
+    /// pi R* w d^2, are in the spring. Damping makes it smaller. @param speed  m/s
+    virtual double overlap_of_impact(ContactPair const& pair, double speed) const = 0;
+    /// The pull that separates a contact, N; 0 where no pull is held, because spring and attraction are both
+    /// proportional to the overlap.
+    virtual double pull_off_force(ContactPair const& pair) const = 0;
+    /// Attraction over the force of the spring, where both are proportional to the overlap; nothing
+    /// elsewhere.
+    virtual std::optional<double> attraction_ratio(ContactPair const& pair) const = 0;
+    /// n, where the overlap at rest goes with Young's modulus as E^(-n): so must the energy density of the
+    /// attraction go with E^n for the same attraction.
+    virtual double stiffness_exponent() const = 0;
+};
 
-/// The largest overlap of an undamped impact with `speed` (m/s), m: where the kinetic energy and the work of
-/// the attraction, pi R* w d^2, are in the spring. Damping makes it smaller.
-/// @param hooke_speed  m/s, for which the spring of Hooke was chosen
-double overlap_of_impact(scenario::Scenario const& scenario, ContactPair const& pair, double speed,
-                         double hooke_speed);
+/// Of a scenario whose modulus is known. @param speed  m/s, for which a linear spring is chosen; see
+/// hooke_stiffness()
+std::unique_ptr<Contact const> contact_of(scenario::Scenario const& scenario, double speed);
 
 }  // namespace vibrotrough::prepare

@@ -1,5 +1,6 @@
 #include "prepare/numerics_variations.hpp"
 
+#include "prepare/contact.hpp"
 #include "scenario/reader/keys.hpp"
 
 #include <cmath>
@@ -38,13 +39,6 @@ scenario::Key const& row_of(NumericalSetting setting) {
     return *scenario::find_key(names_of(setting).key);
 }
 
-/// How the energy density of sjkr goes with Young's modulus for the same attraction. The pull-off force of a
-/// Hertz contact goes with w^3 / E^2, and the attraction over the spring of a Hooke contact with w / E^(4/5)
-/// (prepare/contact.hpp).
-double cohesion_exponent(scenario::EnginePlan const& engine) {
-    return engine.contact == scenario::ContactModel::hertz ? 2.0 / 3 : 4.0 / 5;
-}
-
 VariedSetting vary_modulus(scenario::Scenario const& s) {
     double const given = s.grains.youngs_modulus.value();
     VariedSetting varied{NumericalSetting::youngs_modulus, given, 1};
@@ -53,7 +47,7 @@ VariedSetting vary_modulus(scenario::Scenario const& s) {
         if (modulus > row_of(NumericalSetting::youngs_modulus).most) continue;
         scenario::Scenario stiff = s;
         stiff.grains.youngs_modulus = modulus;
-        stiff.engine.cohesion *= std::pow(factor, cohesion_exponent(s.engine));
+        stiff.engine.cohesion *= std::pow(factor, contact_of(s, 1)->stiffness_exponent());
         varied.variations.push_back({modulus, std::pow(factor, contact_order), stiff});
     }
     if (varied.variations.empty())

@@ -58,27 +58,19 @@ double rayleigh_time(scenario::Scenario const& s, double smallest_radius) {
     return shortest;
 }
 
-double contact_time(scenario::Scenario const& s, ContactPair const& pair, double restitution, double speed) {
-    if (s.engine.contact == scenario::ContactModel::hertz) {
-        double const modulus = effective_modulus(s.grains);
-        return 2.87 * std::pow(pair.mass * pair.mass / (pair.radius * modulus * modulus * speed), 0.2);
-    }
-    return linear_impact(hooke_stiffness(s.grains, pair, speed), pair.mass, damping_ratio(restitution))
-        .duration;
-}
-
 /// Duration of the shortest contact at this speed: of the smallest grains of each material, with themselves
 /// and with those of the others. With R* and m* halved for two equal grains, R* and m* of two unequal ones
 /// are the harmonic means of these.
 double contact_time(scenario::Scenario const& s, double smallest_radius, double speed) {
     auto const all = smallest_grains(s, smallest_radius);
+    auto const contact = contact_of(s, speed);
     double shortest = std::numeric_limits<double>::infinity();
     for (SmallestGrains const& one : all) {
         for (SmallestGrains const& other : all) {
             ContactPair const pair{scenario::harmonic_mean(one.pair.radius, other.pair.radius),
                                    scenario::harmonic_mean(one.pair.mass, other.pair.mass)};
             double const restitution = std::min(one.restitution, other.restitution);
-            shortest = std::min(shortest, contact_time(s, pair, restitution, speed));
+            shortest = std::min(shortest, contact->duration(pair, speed, restitution));
         }
     }
     return shortest;

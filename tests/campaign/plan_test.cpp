@@ -125,10 +125,11 @@ TEST(CaseId, ChangesWithEveryInput) {
     EXPECT_TRUE(ids.insert(ids_of(example_campaign, "LIGGGHTS 3.9.0").at(0)).second) << "engine version";
 }
 
-// How the user gave the drive is not part of the case: g = 9.81 m/s2 and r = 6 mm at 30 degrees make 13.6137 Hz a
-// throw number of 2.
+// How the user gave the drive is not part of the case: g = 9.81 m/s2 and r = 6 mm at 30 degrees make 13.6137
+// Hz a throw number of 2.
 TEST(CaseId, IsOfTheDriveAndNotOfTheKeyThatGaveIt) {
-    double const frequency = std::sqrt(2 * 9.81 / (0.006 * std::sin(std::acos(-1.0) / 6))) / (2 * std::acos(-1.0));
+    double const frequency =
+        std::sqrt(2 * 9.81 / (0.006 * std::sin(std::acos(-1.0) / 6))) / (2 * std::acos(-1.0));
     scenario::Scenario const given = scenario_of();
     EXPECT_NEAR(given.trough.frequency, frequency, 1e-12);
     EXPECT_EQ(id_of(with("throw_number = 2.0", fmt::format("frequency = \"{} Hz\"", given.trough.frequency))),
@@ -138,7 +139,8 @@ TEST(CaseId, IsOfTheDriveAndNotOfTheKeyThatGaveIt) {
 
 // What the case may cost is not part of it: more packings continue what is there.
 TEST(CaseId, IsNotOfTheLimitsOfItsCost) {
-    EXPECT_EQ(id_of(with("max_cycles = 200", "max_cycles = 200\nmax_packings = 48")), id_of(example_campaign));
+    EXPECT_EQ(id_of(with("max_cycles = 200", "max_cycles = 200\nmax_packings = 48")),
+              id_of(example_campaign));
 }
 
 TEST(MakePlan, PutsEachCaseBelowTheFolder) {

@@ -62,11 +62,11 @@ TEST(Template, MalformedTextsAreRefused) {
 
 TEST(Template, PartsAreInserted) {
     TemplateTexts const texts{{"whole", "a\n{{> folder/part}}\n{{> folder/part}}c\n"},
-                                     {"folder/part", "{{#shown}}\n{{> inner}}\n{{/shown}}\n"},
-                                     {"inner", "b{{x}}"},
-                                     {"loop", "{{> loop}}"},
-                                     {"lost", "{{> none}}"},
-                                     {"open", "{{> inner"}};
+                              {"folder/part", "{{#shown}}\n{{> inner}}\n{{/shown}}\n"},
+                              {"inner", "b{{x}}"},
+                              {"loop", "{{> loop}}"},
+                              {"lost", "{{> none}}"},
+                              {"open", "{{> inner"}};
     TemplateData data;
     data.set("x", "1");
     data.set("shown", true);

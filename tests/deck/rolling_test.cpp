@@ -26,9 +26,8 @@ std::string const measured = with("max_cycles = 200", "max_cycles = 200\nrolling
 TEST(RollingDeck, AddsToTheSecondDeckOnly) {
     Deck const with_it = deck_of(measured), without = deck_of(example_campaign);
     EXPECT_EQ(with_it.settle_files, without.settle_files);
-    EXPECT_EQ(
-        digest_of(deck_of(with("max_cycles = 200", "max_cycles = 200\nrolling = false")).files),
-        digest_of(without.files));
+    EXPECT_EQ(digest_of(deck_of(with("max_cycles = 200", "max_cycles = 200\nrolling = false")).files),
+              digest_of(without.files));
     std::string const on = with_it.files.at(drive_file), off = without.files.at(drive_file);
     EXPECT_THAT(off, Not(HasSubstr("store_force")));
     EXPECT_THAT(off, Not(HasSubstr("rolling.csv")));

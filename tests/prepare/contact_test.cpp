@@ -96,7 +96,7 @@ TEST(Contact, OverlapBalancesSpringAttractionAndForce) {
         scenario::Scenario const s = with_engine(std::string("cohesion = \"") + cohesion + "\"\n");
         ContactPair const pair = grain_on_trough(s.grains, 0.0015);
         for (double const force : {0.0, 1e-4, 1e-2}) {
-            double const overlap = overlap_under_force(s, pair, force, 1);
+            double const overlap = contact_of(s, 1)->overlap_under(pair, force);
             double const part = force + 2 * pi * pair.radius * s.engine.cohesion * overlap;
             EXPECT_NEAR(net_force(pair, s.engine.cohesion, overlap), force, 1e-6 * part);
         }
@@ -105,22 +105,22 @@ TEST(Contact, OverlapBalancesSpringAttractionAndForce) {
     scenario::Scenario s = with_engine("contact = \"hooke\"\ncohesion = \"20 kJ/m3\"\n");
     ContactPair const pair = grain_on_trough(s.grains, 0.0015);
     double const net = hooke_stiffness(s.grains, pair, 1) - 2 * pi * 0.0015 * 2e4;
-    EXPECT_NEAR(overlap_under_force(s, pair, 1e-3, 1), 1e-3 / net, 1e-12);
+    EXPECT_NEAR(contact_of(s, 1)->overlap_under(pair, 1e-3), 1e-3 / net, 1e-12);
     s.engine.cohesion = 1e8;
-    EXPECT_TRUE(std::isinf(overlap_under_force(s, pair, 1e-3, 1)));
+    EXPECT_TRUE(std::isinf(contact_of(s, 1)->overlap_under(pair, 1e-3)));
 }
 
 // m v^2 / 2 + pi R* w d^2 = 8/15 E* sqrt(R*) d^(5/2).
 TEST(Contact, AttractionDeepensAnImpact) {
     scenario::Scenario const s = with_engine("cohesion = \"100 kJ/m3\"\n");
     ContactPair const pair = grain_on_trough(s.grains, 0.0015);
-    double const d = overlap_of_impact(s, pair, 0.7, 0.7), energy = pair.mass * 0.49 / 2;
+    double const d = contact_of(s, 0.7)->overlap_of_impact(pair, 0.7), energy = pair.mass * 0.49 / 2;
     EXPECT_NEAR(8.0 / 15 * effective * std::sqrt(0.0015) * std::pow(d, 2.5),
                 energy + pi * 0.0015 * 1e5 * d * d, 1e-6 * energy);
-    EXPECT_GT(d, overlap_of_impact(with_engine(), pair, 0.7, 0.7));
+    EXPECT_GT(d, contact_of(with_engine(), 0.7)->overlap_of_impact(pair, 0.7));
     // At the speed for which it was chosen, the spring of Hooke is pressed as far as Hertz.
-    EXPECT_NEAR(overlap_of_impact(with_engine("contact = \"hooke\"\n"), pair, 0.7, 0.7),
-                overlap_of_impact(with_engine(), pair, 0.7, 0.7), 1e-12);
+    EXPECT_NEAR(contact_of(with_engine("contact = \"hooke\"\n"), 0.7)->overlap_of_impact(pair, 0.7),
+                contact_of(with_engine(), 0.7)->overlap_of_impact(pair, 0.7), 1e-12);
 }
 
 // k goes with E^(4/5) v^(2/5): the contact of two equal grains lasts pi (15/16)^(2/5) = 3.06 instead of 2.87

@@ -117,8 +117,7 @@ void add_compare(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<CompareArguments>();
     CLI::App* const command = program.add_subcommand(
         "compare", "Print the measured velocity efficiency of every case beside the point-mass theory");
-    command
-        ->add_option("DIR", options->folder, "Folder of the campaign's results, as given to run --output")
+    command->add_option("DIR", options->folder, "Folder of the campaign's results, as given to run --output")
         ->required();
     CLI::Option* const json = command->add_flag("--json", options->json, "Print JSON for scripts");
     CLI::Option* const csv =

@@ -88,7 +88,8 @@ std::string identity_of(Scenario const& scenario) {
     canonical.trough.given = {};
     std::string text;
     for (Key const& key : all_keys()) {
-        if (key.path == "campaign.name" || key.path == "measure.max_packings" || key.path == "measure.max_core_time")
+        if (key.path == "campaign.name" || key.path == "measure.max_packings" ||
+            key.path == "measure.max_core_time")
             continue;
         if (auto const value = written_value(key, canonical)) add_line(text, key.path, key, *value);
     }
