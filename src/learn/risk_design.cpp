@@ -53,12 +53,21 @@ double on_grid(double value, theory::Range const& r, double step, bool above) {
     return rounded >= r.low && rounded <= r.high ? rounded : std::clamp(value, r.low, r.high);
 }
 
-theory::Drive rounded(theory::Drive const& d, theory::DriveSpace const& s, double scale, unsigned corner) {
+/// How finely a drive is rounded, in steps of 1/min, 0.1 mm of stroke and half a degree.
+struct Steps {
+    double of_motion, of_angles;
+};
+/// The coarsest first: angles are the hardest to set.
+constexpr Steps steps_to_try[] = {{1, 1},      {0.1, 1},     {0.1, 0.1},    {0.01, 1},
+                                  {0.01, 0.1}, {0.01, 0.01}, {0.001, 0.001}};
+
+theory::Drive rounded(theory::Drive const& d, theory::DriveSpace const& s, Steps const& steps,
+                      unsigned corner) {
     auto const above = [&](unsigned bit) { return (corner >> bit & 1U) != 0; };
-    return {on_grid(d.frequency, s.frequency, scale / 60, above(0)),
-            on_grid(d.amplitude, s.amplitude, scale * 5e-5, above(1)),
-            on_grid(d.vibration_angle, s.vibration_angle, scale * degree / 2, above(2)),
-            on_grid(d.inclination, s.inclination, scale * degree / 2, above(3))};
+    return {on_grid(d.frequency, s.frequency, steps.of_motion / 60, above(0)),
+            on_grid(d.amplitude, s.amplitude, steps.of_motion * 5e-5, above(1)),
+            on_grid(d.vibration_angle, s.vibration_angle, steps.of_angles * degree / 2, above(2)),
+            on_grid(d.inclination, s.inclination, steps.of_angles * degree / 2, above(3))};
 }
 
 /// A layer whose drive is on the coarsest grid that costs little and keeps every limit; as it is when there
@@ -68,10 +77,10 @@ DesignLayer rounded(RiskSearch const& search, DesignLayer const& layer, bool mus
         return must_carry ? search.merit(one) : search.sure_speed(one);
     };
     double const merit = merit_of(layer);
-    for (double scale : {1.0, 0.1, 0.01, 0.001}) {
+    for (Steps const& steps : steps_to_try) {
         std::vector<std::pair<double, DesignLayer>> candidates;
         for (unsigned corner = 0; corner < 16; ++corner) {
-            DesignLayer const one{rounded(layer.drive, search.space(), scale, corner), layer.depth};
+            DesignLayer const one{rounded(layer.drive, search.space(), steps, corner), layer.depth};
             double const value = merit_of(one);
             if (value >= merit - largest_loss * std::abs(merit)) candidates.emplace_back(value, one);
         }
