@@ -20,7 +20,7 @@ from collections.abc import Iterator
 START = re.compile(r"\bbp::(?:child|system|spawn|async_system)\b|\bposix_spawnp?\s*\(|\b(?:popen|system|fork|vfork|execv\w*|execl\w*|fexecve)\s*\(")
 STARTERS = {
     "engine/engine.cpp": "the engine, and the question for its version",
-    "engine/certificate_cache.cpp": "ldd, which names the libraries of the engine",
+    "engine/certificate.cpp": "ldd, which names the libraries of the engine",
     "campaign/execute/scheduler_call.cpp": "the commands of schedulers",
     "core/temporary_folder.cpp": "a copy of this process, which removes its folders when a signal ends it",
     "app/with_vtk.cpp": "the program's own part with VTK, from the program's folder",

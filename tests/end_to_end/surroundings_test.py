@@ -33,7 +33,7 @@ ARGUMENTS = {
     "capacity": ("{c}", "--output", "{r}"), "compare": ("{r}", "--csv"), "archive": ("{r}", "--output", "{o}.zip"), "learn": ("{c}", "--half-width", "0.03", "--budget", "1 core-hours"),
     "predict": ("{r}", "--at", "throw_number=1.9"), "calibrate": ("{r}", "--measured", "{s}", "--free", "trough.friction"),
     "design": ("--mass-flow", "12 t/h", "--bulk-density", "600 kg/m3", "--width", "300 mm", "--friction", "nothing"), "export": ("{r}",),
-    "plot": ("{r}", "--python", "/nonexistent"), "report": ("{r}", "--python", "/nonexistent"), "check": ("{c}",), "probe-engine": ("--liggghts", "/nonexistent"),
+    "plot": ("{r}", "--python", "/nonexistent"), "report": ("{r}", "--python", "/nonexistent"), "check": ("{c}",),
     "validate": ("--list",), "cite": (), "manual": (), "completion": ("bash",),
     "theory point": POINT, "theory trace": POINT, "theory sensitivity": POINT,
     "theory map": ("--x", "throw_number=1:2:4", "--y", "vibration_angle_deg=5:60:4", "--friction", "0.35", "--output", "{o}.h5"),
@@ -198,7 +198,7 @@ class Surroundings(EndToEndTest):
         for path in (case / "result.h5", case / "packing-1"):
             shutil.rmtree(path) if path.is_dir() else path.unlink()
         (self.folder / "tasks").write_text(f"{case.name} 1\n")
-        for command in (["work", self.output, "--task-list", self.folder / "tasks", "--index", 0], ["report", self.output], ["probe-engine", "--json", "--liggghts", engine]):
+        for command in (["work", self.output, "--task-list", self.folder / "tasks", "--index", 0], ["report", self.output]):
             done = self.start(*command)
             self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.take_starts(), [f"{case.name}/packing-1"] * 2 + [f"{case.name}/packing-2"])
@@ -213,13 +213,13 @@ class Surroundings(EndToEndTest):
         environment = dict(os.environ, HOME=str(self.folder), XDG_CACHE_HOME=str(self.folder / "cache"))
         ids = ("setpriv", f"--reuid={user}", f"--regid={user}", "--clear-groups")
         map_words = [*ARGUMENTS["theory map"][:-1], self.folder / "map.h5"]
-        commands = (["plot", self.output, "--only", "cycles"], self.run_arguments(campaign, self.folder / "new"), ["probe-engine"], ["compare", self.output], ["theory", "map", *map_words])
+        commands = (["plot", self.output, "--only", "cycles"], self.run_arguments(campaign, self.folder / "new"), ["compare", self.output], ["theory", "map", *map_words])
         for count, command in sample(itertools.product((1, 2, 3, 5, 7), commands), 3):
             with self.subTest(count=count, command=command[0]):
                 done = subprocess.run(["prlimit", f"--nproc={count}", *ids, PROGRAM, *map(str, command)], capture_output=True, timeout=60, env=environment)
                 if done.returncode != 0:
                     self.assert_limit(done, "Resource temporarily unavailable", f"{count} processes", "ulimit -u")
-                if command[0] in ("run", "probe-engine"):
+                if command[0] == "run":
                     self.assertEqual(done.returncode, 3, "an engine needs more")
                 if command[0] == "compare" or (command[0] == "plot" and count >= 5):
                     self.assertEqual(done.returncode, 0, done.stderr)

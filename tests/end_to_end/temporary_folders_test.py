@@ -51,8 +51,6 @@ class TemporaryFolders(EndToEndTest):
         done = self.call(*self.run_arguments(self.write_campaign()), "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.left(), [])
-        self.assertEqual(self.call("probe-engine").returncode, 0)
-        self.assertEqual(self.left(), [])
 
     def test_failed_engine(self):
         for commands in (FAILING, CRASHING, "sleep 1000 & exit 1"):
@@ -91,13 +89,6 @@ class TemporaryFolders(EndToEndTest):
                 wait_until(asked.exists, "the engine was asked", process)
                 self.assertEqual(self.stop(process, number), -number)
                 self.assertEqual(self.left(), [], (arguments[0], number))
-
-    def test_stopped_while_it_probes(self):
-        for number in (signal.SIGINT, signal.SIGTERM):
-            process = self.start("probe-engine")
-            wait_until(lambda: engines_in(self.temporary), "a probe ran", process)
-            self.stop(process, number)
-            self.assertEqual(self.left(), [], number)
 
     def test_stopped_task(self):
         campaign = self.write_campaign(ENDLESS)

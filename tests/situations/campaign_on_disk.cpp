@@ -163,7 +163,7 @@ Answer ask(CampaignOnDisk const& campaign, Depth depth, fs::path const& scratch)
         campaign::Plan const plan = campaign::open_plan(campaign.folder());
         auto const activity = campaign::activity_in(plan.folder);
         auto const cases = campaign::survey(plan, activity, {}, campaign::Trust::stamp);
-        campaign::forecast(plan, cases);
+        campaign::forecast(cases);
         ask_readers(plan);
         compare::ComparedCases const compared = compare::compared_cases(plan, activity);
         compare::to_csv(compared.rows, compared.columns);

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/own_folder.hpp"
 #include "engine/binary_watch.hpp"
-#include "engine/certificate_cache.hpp"
+#include "engine/certificate.hpp"
 #include "engine/stop_signals.hpp"
 
 #include <algorithm>
