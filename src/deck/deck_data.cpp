@@ -156,8 +156,6 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     std::string const wall_model = model + attraction + (rolls ? " rolling_friction epsd2" : "");
     data.set("block", block);
     data.set("rolls", rolls);
-    data.set("wear", s.measure.wear);
-    data.set("finnie_constants", repeated(types * types, 1));
     data.set("types", std::to_string(types));
     data.set("other_types", fmt::format("{}", fmt::join(type_names, ", ")));
     data.set("materials", describe_materials(n));

@@ -7,7 +7,6 @@
 #include "deck/deck.hpp"
 #include "deck/deck_folder.hpp"
 #include "evaluate/case.hpp"
-#include "evaluate/impacts.hpp"
 #include "evaluate/packing.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -177,8 +176,6 @@ HandPacking measure_packing(prepare::PreparedCase prepared, fs::path const& fold
     }
     PackingFiles files = read_packing_files(folder);
     add_names(packing, files);
-    if (auto impacts = find_impacts(prepared, folder))  // the engine's own files stay
-        files.snapshots.push_back({folder / impacts_file, *std::move(impacts)});
     packing.end = end_of_run(packing);
     packing.cycles = extent_of_run(prepared, folder).cycles;
     if (packing.cycles < 2)

@@ -24,11 +24,11 @@ bool is_numbered(std::string_view name, std::string_view start, std::string_view
 }
 
 /// Files of the decks, of the engine, and of the program, in this order.
-constexpr std::array<std::string_view, 21> names{
-    "settle.liggghts", "in.liggghts",     "control.in",      "trough.stl", "plate.stl",    "left.stl",
-    "right.stl",       "back.stl",        "end.stl",         "cycles.csv", "phases.csv",   "rolling.csv",
-    "impacts.csv",     "checkpoints.txt", "settled.restart", "engine.out", "log.liggghts", ".engine",
-    "packing.json",    "checkpoint.json", "settled.json"};
+constexpr std::array<std::string_view, 20> names{
+    "settle.liggghts", "in.liggghts", "control.in",      "trough.stl",      "plate.stl",
+    "left.stl",        "right.stl",   "back.stl",        "end.stl",         "cycles.csv",
+    "phases.csv",      "rolling.csv", "checkpoints.txt", "settled.restart", "engine.out",
+    "log.liggghts",    ".engine",     "packing.json",    "checkpoint.json", "settled.json"};
 
 /// The names in a folder, none when there is no folder.
 std::vector<std::string> entries_of(fs::path const& folder) {
@@ -59,9 +59,7 @@ bool is_run_file(std::string_view name) {
     return std::ranges::find(names, name) != names.end() || is_numbered(name, "checkpoint.", ".restart") ||
            is_numbered(name, "profiles.", ".txt") || is_numbered(name, "surface.", ".txt") ||
            is_numbered(name, "along.", ".txt") || is_numbered(name, "left.", ".dump") ||
-           is_numbered(name, "passed.", ".dump") || is_numbered(name, "wear.", ".vtk") ||
-           is_numbered(name, "grain_contacts.", ".dump") || is_numbered(name, "floor_contacts.", ".dump") ||
-           is_numbered(name, "masses.", ".dump") || is_numbered(name, "part.", ".stl");
+           is_numbered(name, "passed.", ".dump") || is_numbered(name, "part.", ".stl");
 }
 
 bool is_frame_file(std::string_view name) {

@@ -107,8 +107,6 @@ struct MeasurementPlan {
     std::optional<double> max_core_time{};  ///< s, largest core time that a case may take
     std::optional<int> min_cycles{};        ///< least number of cycles of a packing
     bool rolling = false;                   ///< whether the contacts at the floor are measured, too
-    bool wear = false;                      ///< whether the wear of the trough is measured, too
-    bool impacts = false;                   ///< whether the energies of impacts are measured, too
 };
 
 /// What a run writes in addition to its measurements.

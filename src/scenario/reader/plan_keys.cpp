@@ -97,14 +97,6 @@ constexpr std::array rows_of_plans{
         "also measure the contacts at the floor within the cycle: how the lowest grains spin and slide, with "
         "which forces and torques; for layers of spheres without side walls",
         field<&Scenario::measure, &MeasurementPlan::rolling>.unless_default()},
-    Key{"measure.wear", truth, "", 0, 1, "true or false", "", 0.0, "true",
-        "also measure the wear of the trough by Finnie's law of erosion: where it is worn, and how much per "
-        "tonne conveyed; without the side walls of side_wall_friction",
-        field<&Scenario::measure, &MeasurementPlan::wear>.unless_default()},
-    Key{"measure.impacts", truth, "", 0, 1, "true or false", "", 0.0, "true",
-        "also measure with which energies grains hit each other and the trough, over two cycles of each "
-        "packing; for layers of spheres without cohesion",
-        field<&Scenario::measure, &MeasurementPlan::impacts>.unless_default()},
 
     Key{"output.frames_per_cycle", integer, "", 0, 1000, "0 to 1000", "", 0.0, "0",
         "frames per cycle that the first packing writes for ParaView; 0 writes none",
