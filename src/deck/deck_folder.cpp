@@ -75,18 +75,6 @@ void write_case(fs::path const& folder, std::map<std::string, std::string> const
     if (both != last) write_digests(last);
 }
 
-bool is_as_written(fs::path const& folder, std::string const& name, std::string const& content) {
-    std::error_code missing;
-    fs::path const path = folder / written_file;
-    if (!fs::is_regular_file(path, missing)) return false;
-    try {
-        auto const written = parse_written(core::read_file(path, core::largest_note));
-        return core::note::knows(written, name, content);
-    } catch (core::note::Fault const&) {
-        return false;
-    }
-}
-
 void make_frame_folder(Deck const& deck, fs::path const& folder) {
     if (deck.files.at(drive_file).find(" dump/") != std::string::npos) core::make_folder(folder / "dump");
 }

@@ -26,11 +26,6 @@ core::note::Digests parse_written(std::string_view text);
 /// @throws core::MissingError when something cannot be written
 void write_case(std::filesystem::path const& folder, std::map<std::string, std::string> const& files);
 
-/// Whether write_case() wrote this content under this name, as far as the digests beside it say.
-/// @param folder  of the case
-/// @param name    path below it, such as "packing-1/in.liggghts"
-bool is_as_written(std::filesystem::path const& folder, std::string const& name, std::string const& content);
-
 /// Makes the folder to which the engine writes frames, if the deck asks for them: the engine makes no folder.
 /// @throws core::MissingError when it cannot be made
 void make_frame_folder(Deck const& deck, std::filesystem::path const& folder);
