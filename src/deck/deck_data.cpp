@@ -179,22 +179,6 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     if (block) describe_block_contact(data, n, types);
 }
 
-/// The lines of a person's file for one place of the decks, without the last line feed.
-void describe_extra(core::TemplateData& data, std::string const& place, std::string lines) {
-    if (lines.ends_with('\n')) lines.pop_back();
-    data.set(place, !lines.empty());
-    data.set(place + "_lines", lines);
-}
-
-void describe_extras(core::TemplateData& data, scenario::EnginePlan const& engine) {
-    scenario::ExtraLines const none{};
-    scenario::ExtraLines const& extra = engine.extra ? *engine.extra : none;
-    data.set("extra_file", extra.file.name);
-    describe_extra(data, "extra_after_contact", extra.after_contact);
-    describe_extra(data, "extra_before_first_cycle", extra.before_first_cycle);
-    describe_extra(data, "extra_at_cycle_end", extra.at_cycle_end);
-}
-
 std::string integrator(scenario::Scenario const& s) {
     if (is_body(s)) return "multisphere allow_group_and_set yes";
     return s.grains.rotation == scenario::Rotation::blocked ? "nve" : "nve/sphere";
@@ -358,7 +342,6 @@ core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& p
     describe_inputs(data, s);
     data.set("modulus_chosen", n.modulus_chosen);
     describe_contact(data, n);
-    describe_extras(data, s.engine);
     describe_packing(data, n);
     describe_drive(data, n);
     describe_output(data, s, n.time, packing.number);

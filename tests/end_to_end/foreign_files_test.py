@@ -22,6 +22,7 @@ import vibrotrough  # noqa: E402
 ONE = {"measure.packings": 1, "measure.max_cycles": 24}
 
 # What draws the efficiency over the campaign, and that with the figures of cases.
+SOURCES = Path(__file__).resolve().parent.parent.parent
 DRAWING = (("plot", "--only", "efficiency"), ("report",))
 
 
@@ -31,27 +32,27 @@ class ForeignFiles(EndToEndTest):
         for part in parts:
             self.assertIn(part, done.stderr)
 
+    def name_a_template(self, campaign):
+        """In the campaign file; it holds a command that would leave a proof."""
+        own = (SOURCES / "input_templates" / "contact.mustache").read_text()
+        (campaign.parent / "contact.mustache").write_text(own + "shell touch executed\n")
+        campaign.write_text(campaign.read_text() + '[engine]\ntemplates = ["contact.mustache"]\n')
+
     def test_no_command_of_a_campaign_file_reaches_the_engine_unasked(self):
-        """The commands of `engine.extra` and `engine.templates`, which LIGGGHTS would run, reach a deck or the engine only when the person gives
-        `--allow-extra`.
+        """The commands of `engine.templates`, which LIGGGHTS would run, reach a deck or the engine only when the person gives `--allow-extra`.
         """
         campaign = self.write_campaign(ONE)
         proofs = lambda: list(self.folder.glob("**/executed"))  # noqa: E731 - LIGGGHTS splits the words, so a name without a folder
-        (self.folder / "x.liggghts").write_text("[after-contact]\nshell touch executed\n")
-        (self.folder / "contact.mustache").write_text("shell touch executed\n")
-        plain = campaign.read_text()
-        for line, shown in (('extra = "x.liggghts"', "shell touch"), ('templates = ["contact.mustache"]', "1 templates beside it")):
-            campaign.write_text(f"{plain}[engine]\n{line}\n")
-            domain = self.folder / "domain.toml"
-            domain.write_text(f'{campaign.read_text()}[domain]\n"trough.throw_number" = {{ from = 1, to = 3 }}\n')
-            for command in (("run", campaign), ("deck", campaign), ("friction-test", campaign), ("convergence", campaign), ("learn", domain, "--half-width", "0.05", "--budget", "1 core-hours")):
-                engine = () if command[0] == "deck" else ("--liggghts", self.engine)
-                self.assert_refused(self.call(*command, "--output", self.output, *engine), 2, shown, "--allow-extra")
-                self.assertEqual(proofs(), [])
-                self.assertEqual(list(self.output.glob("**/*.liggghts")), [])
+        self.name_a_template(campaign)
+        domain = self.folder / "domain.toml"
+        domain.write_text(f'{campaign.read_text()}[domain]\n"trough.throw_number" = {{ from = 1, to = 3 }}\n')
+        for command in (("run", campaign), ("deck", campaign), ("friction-test", campaign), ("convergence", campaign), ("learn", domain, "--half-width", "0.05", "--budget", "1 core-hours")):
+            engine = () if command[0] == "deck" else ("--liggghts", self.engine)
+            self.assert_refused(self.call(*command, "--output", self.output, *engine), 2, "1 templates beside it", "--allow-extra")
+            self.assertEqual(proofs(), [])
+            self.assertEqual(list(self.output.glob("**/*.liggghts")), [])
         self.assertEqual(self.take_starts(), [])
         # With leave, the line is what the engine runs.
-        campaign.write_text(f'{plain}[engine]\nextra = "x.liggghts"\n')
         done = self.call(*self.run_arguments(campaign), "--allow-extra")
         self.assertIn(done.returncode, (0, 1), done.stderr)  # one packing is not precise
         self.assertNotEqual(proofs(), [])
@@ -65,17 +66,15 @@ class ForeignFiles(EndToEndTest):
         for folder, command in (("", ("run", campaign, "--accept-findings")), ("", ("prepare", campaign, "--task-list", self.folder / "tasks", "--accept-findings")),
                                 ("", ("learn", domain, "--half-width", "0.05", "--budget", "1 core-hours", "--accept-findings")),
                                 ("convergence", ("convergence", campaign)), ("friction-test", ("friction-test", campaign))):
-            for line, shown in (('extra = "x.liggghts"', "shell touch"), ('templates = ["contact.mustache"]', "1 templates beside it")):
-                shutil.rmtree(self.output, ignore_errors=True)
-                added = self.output / folder / "added" / "0001"
-                added.mkdir(parents=True)
-                (added / "scenario.toml").write_text(plain.replace("throw_number = 2.0", "throw_number = 2.1") + f"[engine]\n{line}\n")
-                (added / "x.liggghts").write_text("[after-contact]\nshell touch executed\n")
-                (added / "contact.mustache").write_text("shell touch executed\n")
-                done = self.call(*command, "--output", self.output, "--liggghts", self.engine)
-                with self.subTest(command=command[0], line=line):
-                    self.assert_refused(done, 2, shown, "--allow-extra")
-                    self.assertEqual(list(self.folder.glob("**/executed")), [])
+            shutil.rmtree(self.output, ignore_errors=True)
+            added = self.output / folder / "added" / "0001"
+            added.mkdir(parents=True)
+            (added / "scenario.toml").write_text(plain.replace("throw_number = 2.0", "throw_number = 2.1"))
+            self.name_a_template(added / "scenario.toml")
+            done = self.call(*command, "--output", self.output, "--liggghts", self.engine)
+            with self.subTest(command=command[0]):
+                self.assert_refused(done, 2, "1 templates beside it", "--allow-extra")
+                self.assertEqual(list(self.folder.glob("**/executed")), [])
         self.assertEqual(self.take_starts(), [])
 
     def test_no_library_of_the_current_folder_is_loaded(self):
@@ -90,14 +89,13 @@ class ForeignFiles(EndToEndTest):
     def test_no_task_runs_commands_of_a_campaign_unasked(self):
         """`run` and `prepare` pass `--allow-extra` on to the tasks of a cluster only when it, or `--templates`, was given to them."""
         campaign, tasks = self.write_campaign(ONE), self.folder / "tasks"
-        (self.folder / "x.liggghts").write_text("[after-contact]\nshell touch executed\n")
-        campaign.write_text(campaign.read_text() + '[engine]\nextra = "x.liggghts"\n')
+        self.name_a_template(campaign)
         prepare = ["prepare", campaign, "--output", self.output, "--task-list", tasks, "--liggghts", self.engine, "--accept-findings"]
         prepared = self.call(*prepare, "--allow-extra")
         self.assertEqual(prepared.returncode, 0, prepared.stderr)
         self.assertIn("--index $i --allow-extra\n", prepared.stdout)
         work = ["work", self.output, "--task-list", tasks, "--index", 0]
-        self.assert_refused(self.call(*work), 2, "shell touch", "--allow-extra")
+        self.assert_refused(self.call(*work), 2, "1 templates beside it", "--allow-extra")
         self.assertEqual(list(self.folder.glob("**/executed")), [])
         self.assertEqual(self.call(*work, "--allow-extra").returncode, 0)
         self.assertNotEqual(list(self.folder.glob("**/executed")), [])

@@ -214,34 +214,6 @@ class PersonsFiles(EndToEndTest):
         self.assertEqual(self.call("compare", bundle, env=dict(os.environ, TMPDIR=str(temporary))).returncode, 0)
         self.assertEqual(left(), [])
 
-    def test_no_command_names_a_file_outside_of_the_deck(self):
-        """A command of `engine.extra` or of a template that names a file outside of the deck's folder is refused, because the case would stay finished when that
-        file changes.
-
-        It would not be part of the case's id: the case would stay finished when the file changes.
-        """
-        campaign = self.write_campaign(ONE)
-        plain = campaign.read_text()
-        extra, template = self.folder / "x.liggghts", self.folder / "trough.mustache"
-        own = (SOURCES / "input_templates" / "trough.mustache").read_text()
-        for command in ('fix own all mesh/surface file /tmp/own.stl type 2', "fix own all mesh/surface file ../own.stl type 2", "variable v file ~/numbers.txt",
-                        'print "# a hash" file /tmp/out.txt', "shell cp a/../../own.stl own.stl", 'if "1 > 0" then "fix own all mesh/surface file /tmp/own.stl type 2"'):  # fmt: skip
-            for key in ("extra", "templates"):
-                extra.write_text(f"[before-first-cycle]\n{command}\n")
-                template.write_text(f"{own}\n{command}\n")
-                campaign.write_text(plain + ('[engine]\nextra = "x.liggghts"\n' if key == "extra" else '[engine]\ntemplates = ["trough.mustache"]\n'))
-                for asked in (["run", campaign, "--liggghts", self.engine], ["deck", campaign], ["prepare", campaign, "--task-list", self.folder / "tasks", "--liggghts", self.engine]):
-                    done = self.call(*asked, "--output", self.folder / asked[0], "--allow-extra")
-                    self.assert_one_line_error(done, 2, "leads out of the deck's folder", extra.name if key == "extra" else template.name)
-        self.assertEqual(self.take_starts(), [])
-        # The program's own templates, divisions and styles with slashes are no paths.
-        extra.write_text('[before-first-cycle]\nvariable a equal "1 /2"\nfix b all ave/time 1 1 1 v_a\nprint "see /usr/share # here" file own.txt # and /tmp\n')
-        campaign.write_text(plain + '[engine]\nextra = "x.liggghts"\n')
-        self.assertEqual(self.call("deck", campaign, "--output", self.folder / "deck 1", "--allow-extra").returncode, 0)
-        campaign.write_text(plain)
-        done = self.call("deck", campaign, "--output", self.folder / "deck 2", "--templates", SOURCES / "input_templates")
-        self.assertEqual(done.returncode, 0, done.stderr)
-
     def test_what_cannot_be_drawn_is_left_out(self):
         """What cannot be drawn is left out of figures and report and named in one line with its file.
 

@@ -181,7 +181,7 @@ double mean_layer_depth(Scenario const& scenario);
 /// the lowest point of a cross-section, as a mean along it.
 double layer_height(Scenario const& scenario);
 
-/// The files that the scenario names: shape, waveform, extra lines and templates, if it has
+/// The files that the scenario names: shape, waveform and templates, if it has
 /// them.
 std::vector<NamedFile> named_files(Scenario const& scenario);
 
