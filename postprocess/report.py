@@ -52,7 +52,6 @@ CASE_FIGURES = [
     ("spin", "Spin and slip of the floor grains over a cycle"),
     ("rolling", "The contacts at the floor over a cycle"),
     ("profiles", "Velocity over height"),
-    ("impacts", "How often impacts have which energy"),
     ("partition", "Partition curve of the screen"),
     ("segregation", "Segregation of the materials"),
     ("along", "Depth and speed along the trough"),

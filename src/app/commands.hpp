@@ -69,7 +69,6 @@ void add_page(CLI::App& program, int& exit_code);
 /// Writes the HTML report; defined in plot.cpp, because it draws the same figures.
 void add_report(CLI::App& program, int& exit_code);
 /// Tests a LIGGGHTS binary.
-void add_probe_engine(CLI::App& program, int& exit_code);
 /// Runs the validation cases.
 void add_validate(CLI::App& program, int& exit_code);
 /// Checks a campaign before it is simulated.

@@ -95,7 +95,6 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_report(program, exit_code);
     add_page(program, exit_code);
     add_check(program, exit_code);
-    add_probe_engine(program, exit_code);
     add_validate(program, exit_code);
     add_cite(program, exit_code);
     add_manual(program, exit_code);

@@ -14,12 +14,12 @@ namespace {
 /// force (3), tangential force (3), torque (3), overlap.
 class ContactColumns {
   public:
-    ContactColumns(std::string name, bool frames, bool impacts, bool torque, bool overlap)
-        : name_(std::move(name)), frames_(frames), impacts_(impacts), torque_(torque), overlap_(overlap) {}
+    ContactColumns(std::string name, bool frames, bool torque, bool overlap)
+        : name_(std::move(name)), frames_(frames), torque_(torque), overlap_(overlap) {}
 
     /// What the compute is asked for.
     std::string words() const {
-        std::string words = frames_ ? "pos id force_normal force_tangential" : impacts_ ? "id" : "";
+        std::string words = frames_ ? "pos id force_normal force_tangential" : "";
         if (torque_) words += words.empty() ? "torque" : " torque";
         if (overlap_) words += words.empty() ? "delta" : " delta";
         return words;
@@ -30,11 +30,9 @@ class ContactColumns {
     int overlap() const { return before_torque() + (torque_ ? 3 : 0) + 1; }
     /// What the frames write: all but the torque.
     std::string of_frames() const { return columns(1, 15); }
-    /// What is written of impacts: numbers and overlap.
-    std::string of_impacts() const { return frames_ ? columns(7, 9) : columns(1, 3); }
 
   private:
-    int before_torque() const { return frames_ ? 15 : impacts_ ? 3 : 0; }
+    int before_torque() const { return frames_ ? 15 : 0; }
     /// "c_NAME[from] ... c_NAME[to] c_NAME[overlap]"
     std::string columns(int from, int to) const {
         std::vector<std::string> columns;
@@ -45,15 +43,14 @@ class ContactColumns {
     }
 
     std::string name_;
-    bool frames_, impacts_, torque_, overlap_;
+    bool frames_, torque_, overlap_;
 };
 
 }  // namespace
 
 void describe_contact_columns(core::TemplateData& data, bool frames, scenario::MeasurementPlan const& plan) {
-    bool const impacts = plan.impacts;
-    ContactColumns const of_grains("overlaps", frames, impacts, false, true),
-        of_floor("floor_contacts", frames, impacts, plan.rolling, frames || impacts);
+    ContactColumns const of_grains("overlaps", frames, false, true),
+        of_floor("floor_contacts", frames, plan.rolling, frames);
     data.set("contacts", frames);
     data.set("overlap_words", of_grains.words());
     data.set("floor_contact_words", of_floor.words());
@@ -61,8 +58,6 @@ void describe_contact_columns(core::TemplateData& data, bool frames, scenario::M
     data.set("floor_torque_column", std::to_string(of_floor.torque()));
     data.set("contact_columns", frames ? of_grains.of_frames() : std::string());
     data.set("trough_contact_columns", frames ? of_floor.of_frames() : std::string());
-    data.set("watched_grain_columns", impacts ? of_grains.of_impacts() : std::string());
-    data.set("watched_floor_columns", impacts ? of_floor.of_impacts() : std::string());
 }
 
 }  // namespace vibrotrough::deck

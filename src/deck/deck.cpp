@@ -3,7 +3,6 @@
 #include "core/atomic_file.hpp"
 #include "deck/deck_data.hpp"
 #include "deck/deck_folder.hpp"
-#include "deck/impacts.hpp"
 #include "deck/open_trough.hpp"
 #include "deck/phases.hpp"
 #include "deck/render.hpp"
@@ -124,7 +123,6 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     deck.settle_files[settle_file] = tidy(render_template(settle_file, data, replaced));
     describe_gravity(data, prepared.scenario);
     describe_rolling(data, prepared);
-    describe_impacts(data, prepared);
     deck.files = deck.settle_files;
     data.set("characteristic_speed", fmt::format("{}", prepared.time.impact_speed));
     describe_moving_floor(data, prepared);

@@ -5,16 +5,13 @@
 #include "core/text.hpp"
 #include "deck/commands.hpp"
 #include "deck/deck.hpp"
-#include "deck/deck_folder.hpp"
 #include "evaluate/case.hpp"
-#include "evaluate/impacts.hpp"
 #include "evaluate/packing.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -78,51 +75,6 @@ prepare::PreparedCase read_case(fs::path const& file) {
     return prepare::prepare_case(campaign.cases.front());
 }
 
-/// The commands of a deck without the one that sets the speed of the start, which depends on the packing.
-std::vector<std::string> comparable_commands(std::string const& deck) {
-    std::vector<std::string> commands;
-    std::string const all = deck::commands_of(deck::for_one_rank(deck));
-    for (std::size_t start = 0; start < all.size();) {
-        std::size_t const end = std::min(all.find('\n', start), all.size());
-        std::string command = all.substr(start, end - start);
-        start = end + 1;
-        if (command.find("velocity all set") == command.npos) commands.push_back(std::move(command));
-    }
-    return commands;
-}
-
-/// How a file of the deck differs from what this program writes, in words; empty when its commands do not.
-std::string difference(std::string const& name, std::string const& content, std::string const& own) {
-    if (!name.ends_with(".liggghts")) return content == own ? "" : name + " differs";
-    auto const there = comparable_commands(content), expected = comparable_commands(own);
-    auto const [a, b] = std::ranges::mismatch(there, expected);
-    if (a == there.end() && b == expected.end()) return {};
-    if (a == there.end()) return fmt::format("{} lacks '{}'", name, *b);
-    return fmt::format("{} has '{}'", name, *a);
-}
-
-/// Compares the deck in a folder with the deck that this program would write.
-void compare_deck(HandPacking& packing, prepare::PreparedCase const& prepared) {
-    auto const own = deck::make_deck(prepared, {std::max(1, packing.number)}).files;
-    bool any = false, comments = false;
-    for (auto const& [name, content] : own) {
-        if (name == deck::control_file) continue;  // says only when the run ends
-        fs::path const path = packing.folder / name;
-        if (!is_file(path)) continue;
-        any = true;
-        packing.files.push_back(name);
-        std::string const there = core::read_file(path, core::largest_note);
-        if (there == content) continue;
-        std::string const edit = difference(name, there, content);
-        comments = comments || edit.empty();
-        if (!edit.empty()) packing.edits.push_back(edit);
-    }
-    packing.deck = !any                     ? DeckState::missing
-                   : !packing.edits.empty() ? DeckState::changed
-                   : comments               ? DeckState::comments
-                                            : DeckState::unchanged;
-}
-
 /// The whole number N of a line "variable n equal N" of a deck; none when there is no such line.
 std::optional<int> steps_per_cycle(fs::path const& deck) {
     if (!is_file(deck)) return {};
@@ -138,11 +90,10 @@ std::optional<int> steps_per_cycle(fs::path const& deck) {
 }
 
 /// How the engine's own output says that the run ended.
-std::string end_of_run(HandPacking& packing) {
+std::string end_of_run(fs::path const& folder) {
     for (char const* name : {"engine.out", "log.liggghts"}) {
-        fs::path const path = packing.folder / name;
+        fs::path const path = folder / name;
         if (!is_file(path)) continue;
-        packing.files.emplace_back(name);
         std::string const text = core::read_file(path);
         auto const error = text.rfind("\nERROR");
         if (error != text.npos) {
@@ -156,25 +107,14 @@ std::string end_of_run(HandPacking& packing) {
     return "not known: there is no log.liggghts";
 }
 
-void add_names(HandPacking& packing, PackingFiles const& files) {
-    packing.files.emplace_back("cycles.csv");
-    if (!files.phases.content.empty()) packing.files.emplace_back("phases.csv");
-    for (core::TextFile const& file : files.snapshots) packing.files.push_back(file.path.filename().string());
-}
-
 HandPacking measure_packing(prepare::PreparedCase prepared, fs::path const& folder) {
-    HandPacking packing{folder, std::max(1, number_of(folder)), DeckState::missing, {}, {}, 0, {}, {}, {}, {},
-                        {}};
-    compare_deck(packing, prepared);
+    HandPacking packing{
+        .folder = folder, .number = std::max(1, number_of(folder)), .end = end_of_run(folder)};
     if (auto const steps = steps_per_cycle(folder / deck::drive_file)) {
         prepared.time.steps_per_cycle = *steps;
         prepared.time.time_step = 1 / (prepared.scenario.trough.frequency * *steps);
     }
-    PackingFiles files = read_packing_files(folder);
-    add_names(packing, files);
-    if (auto impacts = find_impacts(prepared, folder))  // the engine's own files stay
-        files.snapshots.push_back({folder / impacts_file, *std::move(impacts)});
-    packing.end = end_of_run(packing);
+    PackingFiles const files = read_packing_files(folder);
     packing.cycles = extent_of_run(prepared, folder).cycles;
     if (packing.cycles < 2)
         throw core::InputError(
@@ -190,25 +130,10 @@ HandPacking measure_packing(prepare::PreparedCase prepared, fs::path const& fold
         packing.fault = fault.outcome;
         packing.message = fault.message;
     }
-    std::ranges::sort(packing.files);
     return packing;
 }
 
 }  // namespace
-
-std::string_view name_of(DeckState state) {
-    switch (state) {
-        case DeckState::unchanged:
-            return "unchanged";
-        case DeckState::comments:
-            return "changed in comments or in the speed of the start";
-        case DeckState::changed:
-            return "changed";
-        case DeckState::missing:
-            return "missing";
-    }
-    throw std::invalid_argument("no such state of a deck");
-}
 
 HandRun measure_by_hand(fs::path const& folder, fs::path const& scenario_file) {
     std::vector<fs::path> const folders = folders_with_runs(folder);

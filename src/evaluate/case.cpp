@@ -2,7 +2,6 @@
 
 #include "evaluate/layer.hpp"
 #include "evaluate/open_trough.hpp"
-#include "evaluate/wear.hpp"
 #include "measure/mass_flow.hpp"
 #include "scenario/reader/written_campaign.hpp"
 #include "store/material_quantities.hpp"
@@ -162,7 +161,6 @@ store::CaseRecord evaluate_case(prepare::PreparedCase const& prepared, std::stri
     record.provenance = provenance_of(packings, engine_version);
     for (auto& [number, packing] : packings) record.packings.push_back(std::move(packing.record));
     add_estimate(record);
-    for (store::PackingRecord& packing : record.packings) measure_wear(packing, prepared);
     record.layer_mode = common_mode(record.packings);
     return record;
 }

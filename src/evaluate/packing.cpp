@@ -4,12 +4,10 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "deck/deck.hpp"
-#include "evaluate/impacts.hpp"
 #include "evaluate/layer.hpp"
 #include "evaluate/open_trough.hpp"
 #include "evaluate/rolling.hpp"
 #include "evaluate/screen.hpp"
-#include "evaluate/wear.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -95,8 +93,6 @@ store::PackingRecord measure_packing(prepare::PreparedCase const& prepared, int 
         measure_layer(record, prepared, files, phases);
         measure_rolling(record, prepared, files, phases);
     }
-    read_wear(record, prepared, files);
-    measure_impacts(record, prepared, files);
     return record;
 }
 

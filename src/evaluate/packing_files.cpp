@@ -25,9 +25,9 @@ std::string digest_of_layer(PackingFiles const& files) {
     std::vector<std::string_view> pieces{files.phases.content};
     for (std::size_t i = 0; i < files.snapshots.size(); ++i) {
         // An open trough and a screen have no phases.
-        bool const stands_alone = std::ranges::any_of(
-            std::initializer_list<std::string_view>{"along.", "impacts.", "left.", "passed.", "wear."},
-            [&](std::string_view start) { return names[i].starts_with(start); });
+        bool const stands_alone =
+            std::ranges::any_of(std::initializer_list<std::string_view>{"along.", "left.", "passed."},
+                                [&](std::string_view start) { return names[i].starts_with(start); });
         if (files.phases.content.empty() && !stands_alone) continue;
         pieces.emplace_back(names[i]);
         pieces.emplace_back(files.snapshots[i].content);
@@ -51,9 +51,8 @@ PackingFiles read_packing_files(fs::path const& folder) {
         std::string const name = entry.path().filename().string();
         bool const is_dump =
             (name.starts_with("left.") || name.starts_with("passed.")) && name.ends_with(".dump");
-        bool const is_wear = name.starts_with("wear.") && name.ends_with(".vtk");
-        if (is_dump || is_wear || name == "impacts.csv" || name.starts_with("profiles.") ||
-            name.starts_with("surface.") || name.starts_with("along."))
+        if (is_dump || name.starts_with("profiles.") || name.starts_with("surface.") ||
+            name.starts_with("along."))
             files.snapshots.push_back(core::read_text_file(entry.path()));
     }
     std::ranges::sort(files.snapshots, {}, &core::TextFile::path);

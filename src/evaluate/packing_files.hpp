@@ -16,7 +16,7 @@ struct PackingFiles {
     std::filesystem::path folder;           ///< of the packing
     core::TextFile cycles, phases;          ///< empty when there is no such file
     core::TextFile rolling;                 ///< the contacts at the floor; empty when there is no such file
-    std::vector<core::TextFile> snapshots;  ///< of profiles, surface, wear ..., by name
+    std::vector<core::TextFile> snapshots;  ///< of profiles, surface ..., by name
     std::string cycles_sha256;              ///< of cycles.csv; empty without it
     std::string layer_sha256;    ///< of everything that was written within the cycles but for `rolling`
     std::string rolling_sha256;  ///< of `rolling`, without which the packing counts, too; empty without it

@@ -156,7 +156,7 @@ std::vector<Quantity> motion_quantities() {
         added_later({"coordination_number", "1",
                      "Mean contacts per grain, with other grains (counted for both) and with the floor, over "
                      "the cycle; "
-                     "NaN without measure.rolling or measure.impacts",
+                     "NaN without measure.rolling",
                      coordination_number(), mean}),
         {"coordination_number_half_width", "1",
          "Half-width of the interval of coordination_number at measure.confidence, Student's t over the "

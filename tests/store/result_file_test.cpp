@@ -6,11 +6,9 @@
 #include "sample_record.hpp"
 #include "scenario/reader/written_campaign.hpp"
 #include "store/hdf5_memory_file.hpp"
-#include "store/impact_quantities.hpp"
 #include "store/material_quantities.hpp"
 #include "store/schema.hpp"
 #include "store/summary.hpp"
-#include "store/wear_quantities.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,15 +55,7 @@ void expect_equal_layer(PackingRecord read, PackingRecord written) {
         EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
     for (PackingTable const& table : rolling_tables())
         EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
-    for (PackingTable const& table : wear_tables())
-        EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
-    for (PackingTable const& table : impact_tables())
-        EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
-    EXPECT_EQ(read.impacts.power, written.impacts.power);
-    EXPECT_EQ(read.impacts.brief_share, written.impacts.brief_share);
     EXPECT_EQ(read.granular_temperature, written.granular_temperature);
-    EXPECT_EQ(read.wear.rate, written.wear.rate);
-    EXPECT_EQ(read.wear.per_conveyed, written.wear.per_conveyed);
     EXPECT_EQ(read.rolling_problem, written.rolling_problem);
     EXPECT_EQ(read.rolling.coordination_number, written.rolling.coordination_number);
     EXPECT_EQ(read.motion.mode, written.motion.mode);

@@ -212,8 +212,8 @@ void add_plot(CLI::App& program, int& exit_code) {
         ->add_option("--only", options->only, "Draw only this kind of figure; repeat the option for several")
         // The kinds are named below, with what each shows.
         ->check(CLI::IsMember({"efficiency", "speed", "mass_flow", "residuals", "budget", "cycles",
-                               "portraits", "spin", "rolling", "profiles", "impacts", "partition",
-                               "segregation", "along", "residence", "stages"})
+                               "portraits", "spin", "rolling", "profiles", "partition", "segregation",
+                               "along", "residence", "stages"})
                     .description(""))
         ->type_name("KIND")
         ->expected(1)
@@ -265,7 +265,6 @@ void add_plot(CLI::App& program, int& exit_code) {
   spin        for each case: spin and slip of the floor grains, and friction, over the cycle
   rolling     for each case with measure.rolling: spin, slip and forces at the floor over the cycle
   profiles    for each case: velocity over height
-  impacts     for each case with measure.impacts: how often impacts have which energy
   partition   for each case with a screen: the share of each size that stays
   segregation for each mixture: its segregation index over time, or along an open trough
   along       for each open trough: depth and speed along it

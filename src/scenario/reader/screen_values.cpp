@@ -25,8 +25,6 @@ void check_parts(Scenario const& s, GivenKeys const& given) {
            "the drive of a screen has no stages");
     refuse(s.measure.rolling, "measure.rolling",
            "the contacts at the floor are measured on closed floors only");
-    refuse(s.measure.wear, "measure.wear", "the wear is measured on closed floors only");
-    refuse(s.measure.impacts, "measure.impacts", "impacts are measured on closed floors only");
     refuse(s.output.contacts, "output.contacts", "contacts are not written of grains on a screen");
 }
 

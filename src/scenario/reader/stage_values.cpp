@@ -127,10 +127,6 @@ void check_plan(GivenKeys const& given) {
     if (given.has("measure.rolling"))
         given.fail("measure.rolling", "what happens within a cycle is not measured in stages",
                    "remove it, or the stages");
-    if (given.has("measure.wear"))
-        given.fail("measure.wear", "the wear is not measured in stages", "remove it, or the stages");
-    if (given.has("measure.impacts"))
-        given.fail("measure.impacts", "impacts are not measured in stages", "remove it, or the stages");
 }
 
 }  // namespace
