@@ -16,7 +16,8 @@
 namespace vibrotrough::deck {
 namespace {
 
-prepare::PreparedCase prepared(std::string const& engine, std::vector<scenario::NamedFile> const& files = {}) {
+prepare::PreparedCase prepared(std::string const& engine,
+                               std::vector<scenario::NamedFile> const& files = {}) {
     return prepare::prepare_case(
         scenario::parse_campaign(example_campaign + "[engine]\n" + engine, "test.toml", {{}, files})
             .cases.front());

@@ -38,15 +38,13 @@ TEST(EnginePlan, NothingIsWrittenWithoutIt) {
 }
 
 TEST(EnginePlan, IsReadAndWrittenBack) {
-    Scenario const s =
-        campaign(
-            "contact = \"hooke\"\ncohesion = \"0.05 MJ/m3\"\ntemplates = "
-            "[\"contact.mustache\"]\n")
-            .cases.front();
+    Scenario const s = campaign(
+                           "contact = \"hooke\"\ncohesion = \"0.05 MJ/m3\"\ntemplates = "
+                           "[\"contact.mustache\"]\n")
+                           .cases.front();
     EXPECT_EQ(s.engine.contact, ContactModel::hooke);
     EXPECT_NEAR(s.engine.cohesion, 5e4, 1e-9);
-    EXPECT_EQ(not_covered(s.engine),
-              "contact hooke, cohesion sjkr, template contact.mustache");
+    EXPECT_EQ(not_covered(s.engine), "contact hooke, cohesion sjkr, template contact.mustache");
     EXPECT_EQ(named_files(s).size(), 1u);
     Scenario const again = parse_campaign(to_toml(s), "again", {{}, named_files(s)}).cases.front();
     EXPECT_EQ(to_toml(again), to_toml(s));

@@ -24,11 +24,11 @@ bool is_numbered(std::string_view name, std::string_view start, std::string_view
 }
 
 /// Files of the decks, of the engine, and of the program, in this order.
-constexpr std::array<std::string_view, 20> names{
-    "settle.liggghts", "in.liggghts", "control.in",      "trough.stl",      "plate.stl",
-    "left.stl",        "right.stl",   "back.stl",        "end.stl",         "cycles.csv",
-    "phases.csv",      "rolling.csv", "checkpoints.txt", "settled.restart", "engine.out",
-    "log.liggghts",    ".engine",     "packing.json",    "checkpoint.json", "settled.json"};
+constexpr std::array<std::string_view, 19> names{
+    "settle.liggghts", "in.liggghts",     "control.in",      "trough.stl",  "plate.stl",
+    "left.stl",        "right.stl",       "back.stl",        "end.stl",     "cycles.csv",
+    "phases.csv",      "checkpoints.txt", "settled.restart", "engine.out",  "log.liggghts",
+    ".engine",         "packing.json",    "checkpoint.json", "settled.json"};
 
 /// The names in a folder, none when there is no folder.
 std::vector<std::string> entries_of(fs::path const& folder) {

@@ -28,8 +28,8 @@ bool is_template_name(std::string_view name);
 
 /// What a case asks of the engine beyond what its probes test. Without it, decks are as they always were.
 struct EnginePlan {
-    ContactModel contact = ContactModel::hertz;         ///< normal force
-    double cohesion = 0;                                ///< J/m^3, energy density of the model sjkr; 0: none
+    ContactModel contact = ContactModel::hertz;  ///< normal force
+    double cohesion = 0;                         ///< J/m^3, energy density of the model sjkr; 0: none
     /// Templates in place of the program's own, if any.
     std::shared_ptr<DeckTemplates const> templates = nullptr;
 };
