@@ -35,7 +35,7 @@ ARGUMENTS = {
     "design": ("--mass-flow", "12 t/h", "--bulk-density", "600 kg/m3", "--width", "300 mm", "--friction", "nothing"), "export": ("{r}",),
     "plot": ("{r}", "--python", "/nonexistent"), "report": ("{r}", "--python", "/nonexistent"), "check": ("{c}",),
     "validate": ("--list",), "cite": (), "manual": (), "completion": ("bash",),
-    "theory point": POINT, "theory trace": POINT, "theory sensitivity": POINT,
+    "theory point": POINT, "theory trace": POINT,
     "theory map": ("--x", "throw_number=1:2:4", "--y", "vibration_angle_deg=5:60:4", "--friction", "0.35", "--output", "{o}.h5"),
     "theory limits": ("--friction", "0.35", "--tan-inclination", "-0.1", "--tan-vibration-angle", "0.5"),
     "theory friction": ("--machine-number", "1.5", "--max-relative-displacement", "1.9"),
