@@ -50,7 +50,6 @@ CASE_FIGURES = [
     ("cycles", "Every cycle, the discarded start shaded"),
     ("portraits", "Layer and point mass over a cycle"),
     ("spin", "Spin and slip of the floor grains over a cycle"),
-    ("rolling", "The contacts at the floor over a cycle"),
     ("profiles", "Velocity over height"),
     ("partition", "Partition curve of the screen"),
     ("segregation", "Segregation of the materials"),

@@ -90,7 +90,6 @@ void add_theory_limits(CLI::App& theory, int& exit_code);
 /// Evaluates a horizontal shake test.
 void add_theory_friction(CLI::App& theory, int& exit_code);
 /// Prints derivatives of the velocity efficiency.
-void add_theory_sensitivity(CLI::App& theory, int& exit_code);
 /// Finds the fastest machine within limits.
 void add_theory_design(CLI::App& theory, int& exit_code);
 /// Solves the motions of a CSV file.

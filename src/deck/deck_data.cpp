@@ -233,7 +233,7 @@ void describe_output(core::TemplateData& data, scenario::Scenario const& s, prep
     bool const frames = writes_frames(s.output, packing);
     data.set("frames", frames);
     if (frames) data.set("frame_steps", std::to_string(time.steps_per_cycle / s.output.frames_per_cycle));
-    describe_contact_columns(data, frames && s.output.contacts, s.measure);
+    describe_contact_columns(data, frames && s.output.contacts);
     data.set("max_cycles", std::to_string(s.measure.max_cycles));
     data.set("checkpoints", s.output.checkpoint_cycles > 0);
     data.set("checkpoint_cycles", std::to_string(s.output.checkpoint_cycles));

@@ -13,9 +13,6 @@
 namespace vibrotrough::deck {
 namespace {
 
-/// A mean row of rolling.csv has 240 bytes, and there are 100/3 of them.
-constexpr double rolling_bytes_per_cycle = 8000;
-
 /// The contacts of a frame: a line has 175 bytes, and a frame of a layer that is thrown high has a third of a
 /// contact for each sphere, one of a layer at rest 2.5.
 double contact_bytes(double spheres) {
@@ -172,9 +169,8 @@ double bytes_of(prepare::PreparedCase const& c, double packings, double cycles) 
     double const columns = std::max(1.0, std::round(s.layer.length / (1.5 * mean_diameter(s))));
     double const snapshots = static_cast<double>(profiles_per_cycle) / profile_stride;
     // Mean lengths of the rows of phases.csv, cycles.csv, profiles.N.txt, surface.N.txt and of a dump.
-    double const per_cycle = 253.0 * prepare::phases_per_cycle +
-                             (s.measure.rolling ? rolling_bytes_per_cycle : 0) + 140 +
-                             snapshots * (25 + 22.5 * bins + 35 * columns);
+    double const per_cycle =
+        253.0 * prepare::phases_per_cycle + 140 + snapshots * (25 + 22.5 * bins + 35 * columns);
     double const frames = s.output.frames_per_cycle * cycles *
                           packings_with_frames(s.output, static_cast<int>(std::ceil(packings)));
     double const per_frame = 300 + 102 * spheres + (s.output.contacts ? contact_bytes(spheres) : 0);

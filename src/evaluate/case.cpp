@@ -129,7 +129,9 @@ std::string what_it_would_take(store::CaseRecord const& record) {
     return what_statistics_would_take(record) + "; besides, " + what_numerics_would_take(s);
 }
 
-std::string remark_on_mean(store::CaseRecord const& record) {
+}  // namespace
+
+std::string remark_on(store::CaseRecord const& record) {
     if (std::string flow = unsteady_flow(record); !flow.empty()) return flow;
     if (record.outcome == core::Outcome::not_precise) return what_it_would_take(record);
     if (record.outcome == core::Outcome::bistable_or_slow) {
@@ -137,19 +139,6 @@ std::string remark_on_mean(store::CaseRecord const& record) {
                            in_words(record.estimate.below), in_words(record.estimate.above));
     }
     return {};
-}
-
-}  // namespace
-
-std::string remark_on(store::CaseRecord const& record) {
-    std::string remark = remark_on_mean(record);
-    for (std::size_t i = 0; i < record.packings.size(); ++i) {
-        if (record.packings[i].rolling_problem.empty()) continue;
-        remark += fmt::format("{}packing {}: {}", remark.empty() ? "" : "; ", i + 1,
-                              record.packings[i].rolling_problem);
-        break;  // one line: the others have the same cure
-    }
-    return remark;
 }
 
 store::CaseRecord evaluate_case(prepare::PreparedCase const& prepared, std::string const& id,

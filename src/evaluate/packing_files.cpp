@@ -38,14 +38,8 @@ std::string digest_of_layer(PackingFiles const& files) {
 }  // namespace
 
 PackingFiles read_packing_files(fs::path const& folder) {
-    PackingFiles files{folder,
-                       read_if_there(folder / "cycles.csv"),
-                       read_if_there(folder / "phases.csv"),
-                       read_if_there(folder / "rolling.csv"),
-                       {},
-                       {},
-                       {},
-                       {}};
+    PackingFiles files{
+        folder, read_if_there(folder / "cycles.csv"), read_if_there(folder / "phases.csv"), {}, {}, {}};
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder, missing)) {
         std::string const name = entry.path().filename().string();
@@ -58,7 +52,6 @@ PackingFiles read_packing_files(fs::path const& folder) {
     std::ranges::sort(files.snapshots, {}, &core::TextFile::path);
     if (!files.cycles.content.empty()) files.cycles_sha256 = core::sha256_hex(files.cycles.content);
     files.layer_sha256 = digest_of_layer(files);
-    if (!files.rolling.content.empty()) files.rolling_sha256 = core::sha256_hex(files.rolling.content);
     return files;
 }
 
@@ -82,7 +75,6 @@ PackingMarker parse_marker(std::string_view text, PackingFiles const& files) {
                          note::text_if_any(json, "engine_certificate"),
                          json.contains("core_time") ? note::number(json, "core_time", 0) : wall_time,
                          {},
-                         note::text_if_any(json, "rolling_sha256"),
                          note::text_if_any(json, "deck_sha256")};
     if (json.contains("start_efficiency")) marker.start_efficiency = note::number(json, "start_efficiency");
     return marker;
@@ -113,7 +105,6 @@ std::string to_json(PackingFiles const& files, PackingMarker const& marker) {
               {"engine_certificate", marker.engine_certificate},
               {"cycles_sha256", files.cycles_sha256},
               {"layer_sha256", files.layer_sha256}};
-    if (!files.rolling_sha256.empty()) json["rolling_sha256"] = files.rolling_sha256;
     if (!marker.deck_sha256.empty()) json["deck_sha256"] = marker.deck_sha256;
     if (marker.start_efficiency) json["start_efficiency"] = *marker.start_efficiency;
     return json.dump(2) + "\n";

@@ -7,7 +7,6 @@
 #include "measure/layer_motion.hpp"
 #include "measure/layer_profiles.hpp"
 #include "measure/open_flow.hpp"
-#include "measure/rolling_motion.hpp"
 #include "measure/screening.hpp"
 #include "scenario/model/scenario.hpp"
 
@@ -34,7 +33,6 @@ struct PackingRecord {
     measure::LayerMotion motion;        ///< within the cycle, over the cycles kept
     measure::Profiles profiles;         ///< of the same cycles
     measure::Surface surface;           ///< of the layer in the same cycles
-    measure::RollingCurves rolling;     ///< of the same cycles, when measure.rolling asks for it
     measure::OpenFlow open;             ///< of an open trough
     measure::Screening screening;       ///< of a screen
     std::optional<double> granular_temperature;  ///< m^2/s^2, see measure/granular_temperature.hpp
@@ -43,7 +41,6 @@ struct PackingRecord {
     std::optional<double> stage_speed;        ///< m/s, see store/stage_quantities.hpp
     std::optional<double> time_to_speed;      ///< s, pseudo-value of the packing
     std::optional<double> stopping_distance;  ///< m
-    std::string rolling_problem;  ///< why `rolling` is empty although it was asked for; else empty
 };
 
 /// Where and with what a result was made.

@@ -67,11 +67,8 @@ void add_packings(std::vector<NameInFile>& names) {
         add(names, ends ? "cycle_ends/<packing>/" : "series/<packing>/", real_type,
             ends ? "cycles + 1" : "cycles", series.entry);
     }
-    for (auto const* const tables : {&packing_tables(), &rolling_tables()}) {
-        for (PackingTable const& table : *tables)
-            add(names, std::string(table.group) + "/<packing>/", real_type, shape_of(table.group),
-                table.entry);
-    }
+    for (PackingTable const& table : packing_tables())
+        add(names, std::string(table.group) + "/<packing>/", real_type, shape_of(table.group), table.entry);
     for (PackingTable const& table : material_tables(measure::most_materials, false))
         add(names, std::string(table.group) + "/<packing>/", real_type, "cycles + 1", table.entry);
     for (PackingTable const& table : material_tables(measure::most_materials, true))

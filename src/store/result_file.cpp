@@ -215,8 +215,6 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
         source.files.push_back({name, core::note::text(files, name)});
     record.scenario =
         scenario::parse_campaign(record.scenario_toml, path.string() + ":/scenario", source).cases.front();
-    for (std::size_t i = 0; record.scenario.measure.rolling && i < record.packings.size(); ++i)
-        read_tables(file, i, record.packings[i], rolling_tables());
     for (std::size_t i = 0; i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], tables_of_materials(record.scenario));
     for (std::size_t i = 0; is_open(record.scenario) && i < record.packings.size(); ++i)
@@ -294,7 +292,6 @@ std::string result_bytes(CaseRecord const& record) {
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
         add_tables(file, i, record.packings[i], packing_series());
         add_tables(file, i, record.packings[i], packing_tables());
-        if (record.scenario.measure.rolling) add_tables(file, i, record.packings[i], rolling_tables());
         add_tables(file, i, record.packings[i], tables_of_materials(record.scenario));
         if (is_open(record.scenario))
             add_tables(file, i, record.packings[i], open_tables(record.scenario.trough.mesh != nullptr));

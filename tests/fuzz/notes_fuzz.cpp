@@ -49,7 +49,6 @@ void check_marker(std::string_view text) {
     evaluate::PackingFiles files;
     files.cycles_sha256 = "cycles";
     files.layer_sha256 = "layer";
-    files.rolling_sha256 = "rolling";
     auto const marker = believed([&] { return evaluate::parse_marker(text, files); });
     if (!marker) return;
     require_number(marker->wall_time, 0);

@@ -62,7 +62,7 @@ def check_file(path, heading, reference, others=frozenset()):
     with h5py.File(path) as file:
         for name, data in written(file).items():
             shapes = dict(SHAPES[heading])
-            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|rolling|profiles|surface|flow|along|material_flow|material_along|residence|screen|sizes|passed|through|size_cycles)/(\d+)/(\w+)", name)
+            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|profiles|surface|flow|along|material_flow|material_along|residence|screen|sizes|passed|through|size_cycles)/(\d+)/(\w+)", name)
             row_name = f"{series[1]}/<packing>/{series[3]}" if series else name
             if name.startswith("swept/"):
                 row_name = "swept/<key>"
@@ -161,9 +161,6 @@ def check_result_values(file):
     assert case["largest_overlap"] == 4.5e-5 and math.isnan(case["friction_ratio"])
     scale = 0.0099 * (omega * 0.006) ** 2
     assert math.isclose(case["dissipation_fraction"], (0.001 + 0.25 / 1024) / scale, rel_tol=1e-14)
-    # Student's t for one degree of freedom is tan(0.95 pi / 2); two packings with 2.5 and 3.
-    assert case["coordination_number"] == 2.75 and list(file["packings"]["coordination_number"]) == [2.5, 3.0]
-    assert math.isclose(case["coordination_number_half_width"], math.tan(0.95 * math.pi / 2) * 0.25, rel_tol=1e-12)
     assert math.isclose(case["gravity_power"], 0.0099 * 9.81 * math.sin(0.05) * wanted["conveying_speed"], rel_tol=1e-13)
     assert math.isclose(case["dissipated_power"], 13.5 * (0.001 + 0.25 / 1024), rel_tol=1e-13)
     check_mass_flow(file)
@@ -177,9 +174,7 @@ def check_result_values(file):
     assert math.isclose(file["partition"]["attempts"][0], math.log(0.4) / math.log(0.9375), rel_tol=1e-12)
     assert case["screening_efficiency"] == 0.6 and math.isclose(case["screening_efficiency_by_model"], 0.0625, rel_tol=1e-12)
     assert np.allclose(file["screening"]["efficiency"], [0, 0.6]) and np.allclose(file["partition_cycles"]["stays"], [1, 0.4, 1, 1])
-    assert list(file["rolling/1"]["grain_torque"]) > list(file["rolling/1"]["phase"])
     packings = file["packings"]
-    assert [text.decode() for text in packings["rolling_problem"]] == ["", "no file"]
     assert list(packings["seed"]) == [49979687, 86028121]
     assert [text.decode() for text in packings["verdict"]] == ["precise", "not-precise"]
     assert [text.decode() for text in packings["deck"]] == ["# deck of packing 1, angle \u03b2\nrun 3000\n", "# deck of packing 2\n"]

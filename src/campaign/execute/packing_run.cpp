@@ -241,7 +241,6 @@ PackingEnd PackingRun::conclude(long last_step) {
                                          engine_certificate_,
                                          earlier_core_time_ + core_time_,
                                          packing_.start_efficiency,
-                                         files.rolling_sha256,
                                          core::sha256_hex(deck)};
     evaluated_ = {marker, std::get<store::PackingRecord>(std::move(evaluation))};
     evaluate::add_run(evaluated_->record, marker);

@@ -106,7 +106,6 @@ struct MeasurementPlan {
     int max_packings = 24;  ///< largest number of packings of a case
     std::optional<double> max_core_time{};  ///< s, largest core time that a case may take
     std::optional<int> min_cycles{};        ///< least number of cycles of a packing
-    bool rolling = false;                   ///< whether the contacts at the floor are measured, too
 };
 
 /// What a run writes in addition to its measurements.

@@ -84,10 +84,6 @@ constexpr std::array rows_of_plans{
     Key{"measure.max_core_time", quantity, "s", 1, 1e12, "at least 1 s", "", optional, "\"2 hours\"",
         "largest core time that one case may take: when more would be needed, it ends as not-precise",
         field<&Scenario::measure, &MeasurementPlan::max_core_time>},
-    Key{"measure.rolling", truth, "", 0, 1, "true or false", "", 0.0, "true",
-        "also measure the contacts at the floor within the cycle: how the lowest grains spin and slide, with "
-        "which forces and torques; for layers of spheres without side walls",
-        field<&Scenario::measure, &MeasurementPlan::rolling>.unless_default()},
 
     Key{"output.frames_per_cycle", integer, "", 0, 1000, "0 to 1000", "", 0.0, "0",
         "frames per cycle that the first packing writes for ParaView; 0 writes none",
