@@ -1,4 +1,4 @@
-"""Figures of the tables that a result has beside its motion: the spectrum of impacts, the partition curve of a screen, the segregation of a
+"""Figures of the tables that a result has beside its motion: the partition curve of a screen, the segregation of a
 mixture over time, an open trough along itself with its residence times, and the speed over the stages of a drive, each with its intervals
 over the packings. A result without the table gives no figure.
 """
@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
-from matplotlib.ticker import FuncFormatter, NullFormatter
 from numpy.typing import NDArray
 
 import vibrotrough
@@ -19,7 +17,6 @@ if TYPE_CHECKING:
     from figures import Source
 
 Floats = NDArray[np.float64]
-MICRO = 1e6
 SUPERSCRIPTS = str.maketrans("-0123456789", "\u207b\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079")
 
 
@@ -46,42 +43,6 @@ def draw_band(axes: Axes, over: Floats, mean: Floats, half_width: Floats, number
     axes.plot(over, mean, color=COLOURS[number], linestyle=DASHES[number], linewidth=1.4, label=label)
     axes.fill_between(over, mean - half_width, mean + half_width, color=COLOURS[number], alpha=0.2, linewidth=0)
     axes.margins(x=0.01)
-
-
-def power_of_ten(value: float, _: object) -> str:
-    return "10" + str(round(np.log10(value))).translate(SUPERSCRIPTS)
-
-
-def show_decades(axis: Axis) -> None:
-    """A logarithmic axis: the style draws no formulas, which powers of ten are."""
-    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
-    axis.set_major_formatter(FuncFormatter(power_of_ten))
-    axis.set_minor_formatter(NullFormatter())
-
-
-def plot_impacts(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:
-    low, high = (MICRO * column(result, "impact_spectrum", name) for name in ("energy_from", "energy_to"))
-    if len(low) == 0:
-        return []
-    _, axes = new_figure()
-    decades = np.log10(high[0] / low[0])
-    for name, label, style in (("rate", "between grains", 0), ("trough_rate", "with the trough", 1)):
-        rate, half_width = (column(result, "impact_spectrum", name + end) / decades for end in ("", "_half_width"))
-        seen = rate > 0
-        axes.stairs(np.where(seen, rate, np.nan), np.append(low, high[-1]), baseline=None, color=COLOURS[style], linestyle=DASHES[style], linewidth=1.4, label=label)
-        middle = np.sqrt(low * high)[seen]
-        # Over zero no interval has an end on a logarithmic axis.
-        down = np.minimum(half_width, 0.999 * rate)[seen]
-        axes.errorbar(middle, rate[seen], [down, half_width[seen]], fmt="none", ecolor=COLOURS[style], elinewidth=1)
-    show_decades(axes.xaxis)
-    show_decades(axes.yaxis)
-    # What is rarer than a thousandth of the most frequent was seen once or twice.
-    rates = [column(result, "impact_spectrum", name) / decades for name in ("rate", "trough_rate")]
-    least = 1e-3 * np.max(rates)
-    frequent = np.flatnonzero(np.max(rates, axis=0) >= least)
-    axes.set(xlim=(low[frequent[0]], high[-1]), ylim=(least, None))
-    axes.set(xlabel="energy of the impact, m* v\u00b2 / 2  [\u00b5J]", ylabel="impacts per kg, second and decade")
-    return finish(source, case, axes, output)
 
 
 def plot_partition(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:

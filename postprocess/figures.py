@@ -25,7 +25,6 @@ import figure_columns
 import figure_cycles
 import figure_portraits
 import figure_residuals
-import figure_rolling
 import figure_spin
 import figure_tables
 import vibrotrough
@@ -35,7 +34,7 @@ from figure_style import FORMATS, Problem, TooMany, TooNarrow, WrongInput, one_l
 from matplotlib import pyplot as plt
 from plot_campaign import plot_efficiency
 
-KINDS = ("efficiency", "speed", "mass_flow", "residuals", "budget", "cycles", "portraits", "spin", "rolling", "profiles", "impacts", "partition", "segregation", "along", "residence", "stages")
+KINDS = ("efficiency", "speed", "mass_flow", "residuals", "budget", "cycles", "portraits", "spin", "profiles", "partition", "segregation", "along", "residence", "stages")
 
 
 # What a machine does, and the columns that say it, the best first.
@@ -167,8 +166,8 @@ def draw_general(source: Source, only: Collection[str]) -> Iterator[list[pathlib
 def draw_case(source: Source, only: Collection[str], case: str) -> Iterator[list[pathlib.Path]]:
     """The figures of one case, when its result.h5 is there and whole."""
     drawers = {"cycles": figure_cycles.plot_cycles, "portraits": figure_portraits.plot_portraits,
-               "spin": figure_spin.plot_spin, "rolling": figure_rolling.plot_rolling, "profiles": figure_portraits.plot_profiles,
-               "impacts": figure_tables.plot_impacts, "partition": figure_tables.plot_partition, "segregation": figure_tables.plot_segregation,
+               "spin": figure_spin.plot_spin, "profiles": figure_portraits.plot_profiles,
+               "partition": figure_tables.plot_partition, "segregation": figure_tables.plot_segregation,
                "along": figure_tables.plot_along, "residence": figure_tables.plot_residence, "stages": figure_tables.plot_stages}
     wanted = [kind for kind in drawers if kind in only]
     if not wanted:

@@ -100,6 +100,13 @@ def dispersion(packing):
     return values
 
 
+@vibrotrough.observable(needs="contacts")
+def coordination_number(cycle):
+    """Mean contacts per grain, with other grains (counted for both) and with the trough, over the frames of a cycle."""
+    counts = [2 * (contacts.second > 0).sum() + (contacts.second == 0).sum() for contacts in cycle.contacts]
+    return np.sum(counts) / sum(len(frame.positions) for frame in cycle.frames)
+
+
 @vibrotrough.observable(needs="contacts", over=("force over mean force", "1"))
 def force_distribution(cycle):
     """Probability density of the normal forces between grains over their mean, of all contacts in the frames of a cycle."""

@@ -125,10 +125,6 @@ class ValidationCase:
         """Those of the numbers at which a curve is drawn: all of them with the usual --points, and fewer with fewer points."""
         return numbers[:: max(1, USUAL_POINTS // self.points)]
 
-    def probes(self) -> dict[str, dict[str, Any]]:
-        """What `vibrotrough probe-engine` measured and expected, by the probes' names."""
-        return {probe["name"]: probe for probe in json.loads(self._ask("probe-engine", "--json"))["probes"]}
-
     def of_file(self, command: str, text: str) -> Any:
         """What `vibrotrough COMMAND --json` says of a campaign file."""
         with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:

@@ -70,7 +70,7 @@ def observable(unit: str = "1", *, needs: str = "frames", of: str = "cycle", ove
     says what it is.
 
     @param unit   of what it returns, such as "m/s"; "1" for pure numbers
-    @param needs  "frames", "contacts" (with frames), "cycles" (cycles.csv alone), or the name of a file that engine.extra writes, such
+    @param needs  "frames", "contacts" (with frames), "cycles" (cycles.csv alone), or the name of a file that engine.templates write, such
                   as "own.*.csv" (see Packing.table)
     @param of     "cycle": the function is called with each Cycle and returns its number; "packing": it is called once with each Packing and
                   returns an array with one number for each cycle, NaN at the beginning where it is not defined yet, or None where it
@@ -342,7 +342,7 @@ class Packing:
         return self.folder / name
 
     def table(self, name: str) -> dict[str, Floats]:
-        """A table in the packing's folder by columns: "cycles.csv", or what commands of engine.extra wrote with `fix print` (commas between the
+        """A table in the packing's folder by columns: "cycles.csv", or what commands of engine.templates wrote with `fix print` (commas between the
         numbers, and between the names in a first line) or with `fix ave/time` (its own form; TimeStep is called "step").
 
         The engine begins anew at each checkpoint and opens the files of `fix print` and `fix ave/time` anew. Give them a name with ${now}, such

@@ -45,11 +45,6 @@ except ImportError as error:
 
 
 # What others call the inputs.
-MEANINGS = {"mu": "friction", "k": "machine_number", "gamma": "throw_number", "e": "restitution", "beta": "vibration_angle_deg", "alpha": "inclination_deg",
-            "frequency": "frequency_hz", "stroke": "stroke_mm", "amplitude": "amplitude_mm", "speed": "rpm", "vibration_angle": "vibration_angle_deg",
-            "inclination": "inclination_deg"}  # fmt: skip
-
-
 class CoexistingMotion(NamedTuple):
     """One of the motions to which different starts lead."""
 
@@ -262,7 +257,7 @@ def _input_named(name: str, known: Mapping[str, tuple[str, float]]) -> tuple[str
     """The input that a name stands for, and what its numbers are multiplied with."""
     if name in known:
         return known[name]
-    near = [one for one in [MEANINGS.get(name.lower())] if one in known] or difflib.get_close_matches(name, known, 1)
+    near = difflib.get_close_matches(name, known, 1)
     raise TypeError(f"{name} is not an input; " + (f"did you mean {near[0]}?" if near else "inputs are " + ", ".join(known)))
 
 

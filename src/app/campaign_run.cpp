@@ -121,7 +121,7 @@ void size_tasks(ReadyCampaign& ready, std::optional<int> minutes) {
     auto const cases =
         campaign::survey(ready.plan, campaign::activity_in(ready.plan.folder), {}, campaign::Trust::stamp);
     ready.inputs.task_duration = *minutes * 60.0;
-    ready.inputs.speed = campaign::forecast(ready.plan, cases).speed;
+    ready.inputs.speed = campaign::forecast(cases).speed;
 }
 
 }  // namespace vibrotrough::app

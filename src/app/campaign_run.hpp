@@ -25,7 +25,7 @@ struct RunOptions {
     bool accept_failed_probes = false;  ///< run an engine that failed its probes
     bool accept_findings = false;       ///< run although the check found errors
     bool allow_setup = false;           ///< let the tasks of a cluster run the lines of the key setup
-    bool allow_extra = false;           ///< let the decks run the lines of engine.extra
+    bool allow_extra = false;           ///< let the decks be made from engine.templates
     std::string templates;              ///< folder of templates of the decks; empty for the program's own
     int jobs = core::count_available_cores();  ///< cores to use
 

@@ -69,7 +69,6 @@ void add_page(CLI::App& program, int& exit_code);
 /// Writes the HTML report; defined in plot.cpp, because it draws the same figures.
 void add_report(CLI::App& program, int& exit_code);
 /// Tests a LIGGGHTS binary.
-void add_probe_engine(CLI::App& program, int& exit_code);
 /// Runs the validation cases.
 void add_validate(CLI::App& program, int& exit_code);
 /// Checks a campaign before it is simulated.
@@ -91,7 +90,6 @@ void add_theory_limits(CLI::App& theory, int& exit_code);
 /// Evaluates a horizontal shake test.
 void add_theory_friction(CLI::App& theory, int& exit_code);
 /// Prints derivatives of the velocity efficiency.
-void add_theory_sensitivity(CLI::App& theory, int& exit_code);
 /// Finds the fastest machine within limits.
 void add_theory_design(CLI::App& theory, int& exit_code);
 /// Solves the motions of a CSV file.

@@ -66,7 +66,7 @@ void read_layers(campaign::Plan const& plan, theory::Drive const& drive, Simulat
 
 double cost_to_go(campaign::Plan const& plan) {
     auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder), {}, campaign::Trust::stamp);
-    return campaign::forecast(plan, cases).core_time;
+    return campaign::forecast(cases).core_time;
 }
 
 /// Simulates a machine unless that would exceed what is left of the budget.

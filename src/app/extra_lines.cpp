@@ -63,8 +63,7 @@ void use_templates(std::string const& folder, std::vector<scenario::Scenario>& c
 void add_allow_extra(CLI::App& command, bool& allowed) {
     command.add_flag(
         "--allow-extra", allowed,
-        "Let the decks run the lines of engine.extra and use engine.templates, whose commands of "
-        "LIGGGHTS can start any program");
+        "Let the decks be made from engine.templates, whose commands of LIGGGHTS can start any program");
 }
 
 void check_extra_lines(std::string const& file, std::vector<scenario::Scenario> const& cases, bool allowed) {

@@ -14,10 +14,10 @@ namespace vibrotrough::app {
 /// Declares the flag --allow-extra.
 void add_allow_extra(CLI::App& command, bool& allowed);
 
-/// The lines of engine.extra are commands of the engine, which can start programs, and a campaign file may
-/// come from elsewhere.
+/// Templates hold commands of the engine, which can start programs, and a campaign file may come from
+/// elsewhere.
 /// @param file  names the campaign in errors
-/// @throws core::InputError that shows the lines, unless the user has allowed them
+/// @throws core::InputError unless the user has allowed them
 void check_extra_lines(std::string const& file, std::vector<scenario::Scenario> const& cases, bool allowed);
 
 /// Says on standard error what the engine's certificate does not cover in these cases, if anything.

@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/nearest.hpp"
-#include "scenario/reader/other_words.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -95,7 +94,6 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_report(program, exit_code);
     add_page(program, exit_code);
     add_check(program, exit_code);
-    add_probe_engine(program, exit_code);
     add_validate(program, exit_code);
     add_cite(program, exit_code);
     add_manual(program, exit_code);
@@ -112,7 +110,6 @@ explains a command. Example:
     add_theory_trace(*theory, exit_code);
     add_theory_limits(*theory, exit_code);
     add_theory_friction(*theory, exit_code);
-    add_theory_sensitivity(*theory, exit_code);
     add_theory_design(*theory, exit_code);
     add_theory_batch(*theory, exit_code);
     add_theory_calibrate(*theory, exit_code);
@@ -126,20 +123,14 @@ std::vector<std::string_view> commands_below(CLI::App const& command) {
     return names;
 }
 
-/// The option of a command that is meant by one that it does not have: by spelling, or by meaning, as in a
-/// campaign file ("--mu" is --friction). Empty when none is.
+/// The option of a command that is spelt nearly as one that it does not have. Empty when none is.
 std::string option_meant(CLI::App const& command, std::string const& given) {
     std::vector<std::string_view> names;
     for (CLI::Option const* one : command.get_options())
         for (std::string const& name : one->get_lnames()) names.emplace_back(name);
     std::string word =
         given.substr(given.find_first_not_of('-'), given.find('=') - given.find_first_not_of('-'));
-    std::string_view meant;
-    std::string key(scenario::key_in_other_words(word));
-    key.erase(0, key.rfind('.') + 1);
-    std::ranges::replace(key, '_', '-');
-    if (auto const found = std::ranges::find(names, key); found != names.end()) meant = *found;
-    if (meant.empty()) meant = core::nearest_word(word, names);
+    std::string_view const meant = core::nearest_word(word, names);
     return meant.empty() ? "" : fmt::format("--{}", meant);
 }
 

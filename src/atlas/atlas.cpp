@@ -33,8 +33,7 @@ std::vector<Outside> of_another_kind(prepare::PreparedCase const& p) {
     add(s.grains.rotation == scenario::Rotation::blocked, "grains.rotation", "grains that do not rotate");
     add(s.engine.contact != scenario::ContactModel::hertz, "engine.contact", "contacts other than Hertz'");
     add(s.engine.cohesion > 0, "engine.cohesion", "cohesion");
-    add(s.engine.extra != nullptr || s.engine.templates != nullptr, "engine",
-        "commands of the engine of your own");
+    add(s.engine.templates != nullptr, "engine", "commands of the engine of your own");
     // An open trough has walls; smooth ones stand for a piece out of a wide trough.
     bool const has_walls =
         p.domain.open ? s.trough.side_wall_friction > 0.0 : s.trough.side_wall_friction.has_value();

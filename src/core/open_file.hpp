@@ -14,6 +14,7 @@ class Descriptor {
     ~Descriptor();
     /// Takes the file of another object over.
     Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    /// The same; the other object closes the file that this one had.
     Descriptor& operator=(Descriptor&& other) noexcept {
         std::swap(number_, other.number_);
         return *this;

@@ -27,7 +27,7 @@ char const* stiffness_key(scenario::Scenario const& s) {
 }
 
 /// eta was measured to be the same at 10, 20, 30 and 40 % of the Rayleigh time. A contact that lasts fewer
-/// than ten steps is not resolved (in the engine's certificate the restitution is off by 0.02 at 14 steps).
+/// than ten steps is not resolved (the restitution of an impact is off by 0.02 at 14 steps).
 void check_time_step(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     prepare::TimeGrid const& time = c.time;
@@ -176,7 +176,7 @@ void check_numerics(std::vector<Finding>& findings, prepare::PreparedCase const&
                             prepare::largest_numerical_share * wanted * (1 + 1e-9), never, advice));
 }
 
-/// In some codes small grains get caught between much larger ones (engine/three_grains.hpp).
+/// In some codes small grains get caught between much larger ones (engine/README.md).
 void check_sizes(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     double ratio = c.classes.front().diameter / c.classes.back().diameter;
     char const* key = "grains.diameter_spread";
@@ -187,10 +187,10 @@ void check_sizes(std::vector<Finding>& findings, prepare::PreparedCase const& c)
         ratio *= large.radius / small.radius;
         key = "grains.shape";
     }
-    findings.push_back(
-        most("largest sphere / smallest sphere", key, ratio, probed_size_ratios.back(), never,
-             "narrow the sizes: 'vibrotrough probe-engine' tests small grains between large "
-             "ones up to this ratio (Vyas et al. 2025 found codes that fail from about 3 on)"));
+    findings.push_back(most(
+        "largest sphere / smallest sphere", key, ratio, largest_tried_size_ratio, never,
+        "narrow the sizes: small grains between large ones were tried up to this ratio (Vyas et al. 2025 "
+        "found codes that fail from about 3 on)"));
 }
 
 /// What of the sizes can pass a screen, and whether softness decides about any of them.

@@ -2,7 +2,6 @@
 
 #include "prepare/prepared_case.hpp"
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -28,9 +27,9 @@ struct Finding {
     std::string advice;  ///< what to change
 };
 
-/// Ratios of large to small diameters at which 'probe-engine' shows that a small grain between two large ones
-/// moves as it should (engine/three_grains.hpp). Increasing.
-constexpr std::array<double, 6> probed_size_ratios{1, 2, 3, 5, 8, 20};
+/// Largest ratio of large to small diameters at which LIGGGHTS 3.8.0 was seen to move a small grain between
+/// two large ones as it should (engine/README.md).
+constexpr double largest_tried_size_ratio = 20;
 
 /// How far a finding is beyond its limit (above 1) or within it.
 double excess(Finding const& finding);

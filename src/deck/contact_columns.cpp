@@ -11,58 +11,38 @@ namespace vibrotrough::deck {
 namespace {
 
 /// The columns of one of these computes, in the engine's order: two places (6 columns), numbers (3), normal
-/// force (3), tangential force (3), torque (3), overlap.
+/// force (3), tangential force (3), overlap.
 class ContactColumns {
   public:
-    ContactColumns(std::string name, bool frames, bool impacts, bool torque, bool overlap)
-        : name_(std::move(name)), frames_(frames), impacts_(impacts), torque_(torque), overlap_(overlap) {}
+    ContactColumns(std::string name, bool frames) : name_(std::move(name)), frames_(frames) {}
 
     /// What the compute is asked for.
-    std::string words() const {
-        std::string words = frames_ ? "pos id force_normal force_tangential" : impacts_ ? "id" : "";
-        if (torque_) words += words.empty() ? "torque" : " torque";
-        if (overlap_) words += words.empty() ? "delta" : " delta";
-        return words;
-    }
-    /// The second of the torque's three columns, about y.
-    int torque() const { return before_torque() + 2; }
+    std::string words() const { return frames_ ? "pos id force_normal force_tangential delta" : "delta"; }
     /// The column of the overlap.
-    int overlap() const { return before_torque() + (torque_ ? 3 : 0) + 1; }
-    /// What the frames write: all but the torque.
-    std::string of_frames() const { return columns(1, 15); }
-    /// What is written of impacts: numbers and overlap.
-    std::string of_impacts() const { return frames_ ? columns(7, 9) : columns(1, 3); }
-
-  private:
-    int before_torque() const { return frames_ ? 15 : impacts_ ? 3 : 0; }
-    /// "c_NAME[from] ... c_NAME[to] c_NAME[overlap]"
-    std::string columns(int from, int to) const {
+    int overlap() const { return frames_ ? 16 : 1; }
+    /// What the frames write: all of them.
+    std::string of_frames() const {
         std::vector<std::string> columns;
-        for (int column = from; column <= to; ++column)
+        for (int column = 1; column <= overlap(); ++column)
             columns.push_back(fmt::format("c_{}[{}]", name_, column));
-        columns.push_back(fmt::format("c_{}[{}]", name_, overlap()));
         return fmt::format("{}", fmt::join(columns, " "));
     }
 
+  private:
     std::string name_;
-    bool frames_, impacts_, torque_, overlap_;
+    bool frames_;
 };
 
 }  // namespace
 
-void describe_contact_columns(core::TemplateData& data, bool frames, scenario::MeasurementPlan const& plan) {
-    bool const impacts = plan.impacts;
-    ContactColumns const of_grains("overlaps", frames, impacts, false, true),
-        of_floor("floor_contacts", frames, impacts, plan.rolling, frames || impacts);
+void describe_contact_columns(core::TemplateData& data, bool frames) {
+    ContactColumns const of_grains("overlaps", frames), of_floor("floor_contacts", true);
     data.set("contacts", frames);
     data.set("overlap_words", of_grains.words());
     data.set("floor_contact_words", of_floor.words());
     data.set("overlap_column", std::to_string(of_grains.overlap()));
-    data.set("floor_torque_column", std::to_string(of_floor.torque()));
     data.set("contact_columns", frames ? of_grains.of_frames() : std::string());
     data.set("trough_contact_columns", frames ? of_floor.of_frames() : std::string());
-    data.set("watched_grain_columns", impacts ? of_grains.of_impacts() : std::string());
-    data.set("watched_floor_columns", impacts ? of_floor.of_impacts() : std::string());
 }
 
 }  // namespace vibrotrough::deck

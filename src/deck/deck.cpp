@@ -4,11 +4,9 @@
 #include "core/hash.hpp"
 #include "deck/deck_data.hpp"
 #include "deck/deck_folder.hpp"
-#include "deck/impacts.hpp"
 #include "deck/open_trough.hpp"
 #include "deck/phases.hpp"
 #include "deck/render.hpp"
-#include "deck/rolling.hpp"
 #include "deck/screen.hpp"
 #include "deck/trough_mesh.hpp"
 
@@ -97,8 +95,6 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     describe_settling_gravity(data, prepared.scenario);
     deck.settle_files[settle_file] = tidy(render_template(settle_file, data, replaced));
     describe_gravity(data, prepared.scenario);
-    describe_rolling(data, prepared);
-    describe_impacts(data, prepared);
     deck.files = deck.settle_files;
     data.set("characteristic_speed", fmt::format("{}", prepared.time.impact_speed));
     describe_moving_floor(data, prepared);

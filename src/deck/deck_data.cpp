@@ -157,8 +157,6 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     std::string const wall_model = model + attraction + (rolls ? " rolling_friction epsd2" : "");
     data.set("block", block);
     data.set("rolls", rolls);
-    data.set("wear", s.measure.wear);
-    data.set("finnie_constants", repeated(types * types, 1));
     data.set("types", std::to_string(types));
     data.set("other_types", fmt::format("{}", fmt::join(type_names, ", ")));
     data.set("materials", describe_materials(n));
@@ -180,22 +178,6 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("frictions", tables.frictions);
     data.set("rolling_frictions", repeated(types * types, s.grains.rolling_friction));
     if (block) describe_block_contact(data, n, types);
-}
-
-/// The lines of a person's file for one place of the decks, without the last line feed.
-void describe_extra(core::TemplateData& data, std::string const& place, std::string lines) {
-    if (lines.ends_with('\n')) lines.pop_back();
-    data.set(place, !lines.empty());
-    data.set(place + "_lines", lines);
-}
-
-void describe_extras(core::TemplateData& data, scenario::EnginePlan const& engine) {
-    scenario::ExtraLines const none{};
-    scenario::ExtraLines const& extra = engine.extra ? *engine.extra : none;
-    data.set("extra_file", extra.file.name);
-    describe_extra(data, "extra_after_contact", extra.after_contact);
-    describe_extra(data, "extra_before_first_cycle", extra.before_first_cycle);
-    describe_extra(data, "extra_at_cycle_end", extra.at_cycle_end);
 }
 
 std::string integrator(scenario::Scenario const& s) {
@@ -253,7 +235,7 @@ void describe_output(core::TemplateData& data, scenario::Scenario const& s, prep
     bool const frames = writes_frames(s.output, packing);
     data.set("frames", frames);
     if (frames) data.set("frame_steps", std::to_string(time.steps_per_cycle / s.output.frames_per_cycle));
-    describe_contact_columns(data, frames && s.output.contacts, s.measure);
+    describe_contact_columns(data, frames && s.output.contacts);
     data.set("max_cycles", std::to_string(s.measure.max_cycles));
     data.set("checkpoints", s.output.checkpoint_cycles > 0);
     data.set("checkpoint_cycles", std::to_string(s.output.checkpoint_cycles));
@@ -362,7 +344,6 @@ core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& p
     describe_inputs(data, s);
     data.set("modulus_chosen", n.modulus_chosen);
     describe_contact(data, n);
-    describe_extras(data, s.engine);
     describe_packing(data, n);
     describe_drive(data, n);
     describe_output(data, s, n.time, packing.number);

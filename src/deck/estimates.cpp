@@ -1,6 +1,5 @@
 #include "deck/estimates.hpp"
 
-#include "deck/impacts.hpp"
 #include "deck/phases.hpp"
 #include "deck/screen.hpp"
 #include "deck/trough_mesh.hpp"
@@ -14,19 +13,10 @@
 namespace vibrotrough::deck {
 namespace {
 
-/// A mean row of rolling.csv has 240 bytes, and there are 100/3 of them.
-constexpr double rolling_bytes_per_cycle = 8000;
-
 /// The contacts of a frame: a line has 175 bytes, and a frame of a layer that is thrown high has a third of a
 /// contact for each sphere, one of a layer at rest 2.5.
 double contact_bytes(double spheres) {
     return 1000 + 175 * 0.8 * spheres;
-}
-
-/// The wear of a cycle: a file has 600 bytes and 130 for each triangle, whose legs are three diameters long.
-double wear_bytes(scenario::Scenario const& s) {
-    double const edge = 3 * mean_diameter(s);
-    return 600 + 130 * 2 * std::ceil(s.layer.length / edge) * std::ceil(s.layer.width / edge);
 }
 
 /// A mean grain on the trough.
@@ -162,15 +152,13 @@ double bytes_of(prepare::PreparedCase const& c, double packings, double cycles) 
     double const snapshots = static_cast<double>(profiles_per_cycle) / profile_stride;
     // Mean lengths of the rows of phases.csv, cycles.csv, profiles.N.txt, surface.N.txt and of a dump.
     double const per_cycle =
-        253.0 * prepare::phases_per_cycle + (s.measure.rolling ? rolling_bytes_per_cycle : 0) +
-        (s.measure.wear ? wear_bytes(s) : 0) + 140 + snapshots * (25 + 22.5 * bins + 35 * columns);
+        253.0 * prepare::phases_per_cycle + 140 + snapshots * (25 + 22.5 * bins + 35 * columns);
     double const frames = s.output.frames_per_cycle * cycles *
                           packings_with_frames(s.output, static_cast<int>(std::ceil(packings)));
     double const per_frame = 300 + 102 * spheres + (s.output.contacts ? contact_bytes(spheres) : 0);
     // The engine's output, the deck and the marker of the run and of its settling; settled.restart and one
     // checkpoint.
-    double const per_packing =
-        175e3 + (350 + 310) * spheres + (s.measure.impacts ? watched_bytes(c, spheres) : 0);
+    double const per_packing = 175e3 + (350 + 310) * spheres;
     double const result = 100e3 + packings * (15e3 + 72 * cycles);
     return packings * (per_packing + cycles * per_cycle) + frames * per_frame + result;
 }

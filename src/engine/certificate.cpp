@@ -1,56 +1,71 @@
 #include "engine/certificate.hpp"
 
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/note.hpp"
 #include "core/text.hpp"
+#include "core/time.hpp"
+#include "core/version.hpp"
+#include "engine/probe.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdlib>
 
+#include <boost/process.hpp>
 #include <nlohmann/json.hpp>
 
 namespace vibrotrough::engine {
 namespace {
 
+namespace bp = boost::process;
+namespace fs = std::filesystem;
 namespace note = core::note;
 using note::Json;
+
 constexpr char const* format_name = "vibrotrough engine certificate";
 
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
+/// The libliggghts that the dynamic linker would load for the program; empty for a script or a program that
+/// does not link one.
+std::string linked_library(fs::path const& program) {
+    auto const ldd = bp::search_path("ldd");
+    if (ldd.empty()) return {};
+    try {
+        bp::ipstream output;
+        bp::child child(ldd, bp::args({program.string()}), bp::std_out > output, bp::std_err > bp::null,
+                        bp::std_in < bp::null);
+        std::string library;
+        for (std::string line; std::getline(output, line);) {
+            auto const arrow = line.find(" => /");
+            auto const end = line.rfind(" (");
+            if (line.find("libliggghts") >= arrow || arrow == std::string::npos) continue;
+            library = line.substr(arrow + 4, end == std::string::npos ? end : end - arrow - 4);
+        }
+        child.wait();
+        return library;
+    } catch (bp::process_error const&) {
+        return {};
+    }
 }
 
-double known_or_nan(Json const& json, std::string const& key,
-                    double least = std::numeric_limits<double>::lowest()) {
-    return note::known_number(json, key, least).value_or(std::numeric_limits<double>::quiet_NaN());
+std::optional<fs::path> certificate_file(EngineIdentity const& identity) {
+    auto const folder = certificate_folder();
+    if (!folder) return {};
+    return *folder / (identity.key() + ".json");
 }
 
 Json describe(ProbeResult const& probe) {
     return {{"name", probe.name},
             {"question", probe.question},
-            {"expected", number(probe.expected)},
+            {"expected", probe.expected},
             {"comparison", probe.comparison == Comparison::near ? "near" : "at most"},
             {"source", probe.source},
-            {"measured", number(probe.measured)},
-            {"unit", probe.unit},
-            {"tolerance", number(probe.tolerance)},
+            {"measured", std::isfinite(probe.measured) ? Json(probe.measured) : Json(nullptr)},
+            {"tolerance", probe.tolerance},
             {"tolerance_reason", probe.tolerance_reason},
             {"problem", probe.problem},
             {"verdict", probe.passed() ? "passed" : "failed"}};
-}
-
-ProbeResult read_probe(Json const& json) {
-    return {note::text(json, "name"),
-            note::text(json, "question"),
-            note::text(json, "source"),
-            note::text(json, "unit"),
-            note::text(json, "comparison") == "near" ? Comparison::near : Comparison::at_most,
-            known_or_nan(json, "expected"),
-            known_or_nan(json, "measured"),
-            known_or_nan(json, "tolerance"),
-            note::text(json, "tolerance_reason"),
-            note::text(json, "problem")};
 }
 
 Json describe(EngineIdentity const& engine) {
@@ -59,22 +74,8 @@ Json describe(EngineIdentity const& engine) {
             {"library", core::harmless(engine.library)},
             {"library_sha256", engine.library_sha256},
             {"version", engine.version},
-            {"probes_sha256", engine.probes_sha256}};
-}
-
-Json describe(Certificate const& certificate) {
-    Json probes = Json::array();
-    for (ProbeResult const& probe : certificate.probes) probes.push_back(describe(probe));
-    return {{"format", format_name},
-            {"verdict", certificate.passed() ? "passed" : "failed"},
-            {"engine", describe(certificate.engine)},
-            {"program_version", certificate.program_version},
-            {"git_commit", certificate.git_commit},
-            {"host", certificate.host},
-            {"probed", certificate.probed},
-            {"grain_steps_per_cpu_second", number(certificate.grain_steps_per_cpu_second)},
-            {"speed_grains", certificate.speed_grains},
-            {"probes", probes}};
+            {"probes_sha256", engine.probes_sha256},
+            {"key", engine.key()}};
 }
 
 }  // namespace
@@ -87,6 +88,18 @@ std::string EngineIdentity::binary_sha256() const {
     return core::sha256_hex(program_sha256 + "\n" + library_sha256);
 }
 
+EngineIdentity identify(Engine const& engine) {
+    EngineIdentity identity{};
+    identity.program = engine.program.string();
+    identity.program_sha256 = core::sha256_hex(core::read_file(engine.program));
+    identity.library = linked_library(engine.program);
+    if (!identity.library.empty())
+        identity.library_sha256 = core::sha256_hex(core::read_file(identity.library));
+    identity.version = engine.version;
+    identity.probes_sha256 = digest_of_probes();
+    return identity;
+}
+
 bool ProbeResult::passed() const {
     double const excess = measured - expected;  // comparisons with NaN are false
     return problem.empty() && (comparison == Comparison::near ? std::abs(excess) : excess) <= tolerance;
@@ -97,32 +110,55 @@ bool Certificate::passed() const {
 }
 
 std::string to_json(Certificate const& certificate) {
-    Json json = describe(certificate);
-    json["content_sha256"] = core::sha256_hex(json.dump());
+    Json probes = Json::array();
+    for (ProbeResult const& probe : certificate.probes) probes.push_back(describe(probe));
+    Json const json{{"format", format_name},
+                    {"verdict", certificate.passed() ? "passed" : "failed"},
+                    {"engine", describe(certificate.engine)},
+                    {"program_version", core::program_version()},
+                    {"git_commit", core::program_commit()},
+                    {"host", core::host_name()},
+                    {"probed", certificate.probed},
+                    {"probes", probes}};
     return json.dump(2) + "\n";
 }
 
-std::optional<Certificate> parse_certificate(std::string_view text) {
+std::optional<fs::path> certificate_folder() {
+    // The XDG base directory specification says that a relative XDG_CACHE_HOME must be ignored.
+    char const* const cache = std::getenv("XDG_CACHE_HOME");
+    if (cache != nullptr && fs::path(cache).is_absolute()) return fs::path(cache) / "vibrotrough" / "engines";
+    char const* const home = std::getenv("HOME");
+    if (home == nullptr || *home == '\0') return {};
+    return fs::path(home) / ".cache" / "vibrotrough" / "engines";
+}
+
+std::optional<std::string> find_certificate(EngineIdentity const& identity) {
+    auto const file = certificate_file(identity);
+    std::error_code ignored;
+    if (!file || !fs::is_regular_file(*file, ignored)) return {};
     try {
-        Json json = note::parse(text);
-        std::string const digest = note::text(json, "content_sha256");
-        json.erase("content_sha256");
-        if (note::text(json, "format") != format_name || core::sha256_hex(json.dump()) != digest) return {};
-        Json const& engine = note::object(json, "engine");
-        Certificate certificate{{note::text(engine, "program"), note::text(engine, "program_sha256"),
-                                 note::text(engine, "library"), note::text(engine, "library_sha256"),
-                                 note::text(engine, "version"), note::text(engine, "probes_sha256")},
-                                note::text(json, "program_version"),
-                                note::text(json, "git_commit"),
-                                note::text(json, "host"),
-                                note::text(json, "probed"),
-                                known_or_nan(json, "grain_steps_per_cpu_second", 0),
-                                note::count(json, "speed_grains", 0),
-                                {}};
-        for (Json const& probe : note::list(json, "probes")) certificate.probes.push_back(read_probe(probe));
-        return certificate;
+        std::string const text = core::read_file(*file, core::largest_note);
+        Json const json = note::parse(text);
+        if (note::text(json, "verdict") == "passed" &&
+            note::text(note::object(json, "engine"), "key") == identity.key())
+            return text;
+    } catch (core::MissingError const&) {
+        // treat an unreadable certificate like a missing one
     } catch (note::Fault const&) {
+    }
+    return {};
+}
+
+std::string keep_certificate(Certificate const& certificate) {
+    if (!certificate.passed()) return "not all probes passed";
+    auto const file = certificate_file(certificate.engine);
+    if (!file) return "neither XDG_CACHE_HOME nor HOME is set";
+    try {
+        core::make_folder(file->parent_path());
+        core::write_file_atomically(*file, to_json(certificate));
         return {};
+    } catch (core::Error const& error) {
+        return error.what();
     }
 }
 

@@ -18,14 +18,6 @@ double sphere_mass(ContactMaterial const& m) {
     return m.density * 4 / 3 * std::numbers::pi * std::pow(m.radius, 3);
 }
 
-double hertz_force(ContactMaterial const& m, double overlap) {
-    return 4.0 / 3 * effective_modulus(m) * std::sqrt(m.radius) * std::pow(overlap, 1.5);
-}
-
-double hertz_overlap(ContactMaterial const& m, double force) {
-    return std::pow(0.75 * force / (effective_modulus(m) * std::sqrt(m.radius)), 2.0 / 3);
-}
-
 ImpactResult integrate_impact(ContactMaterial const& m, double normal_speed, double tangential_speed) {
     double const mass = sphere_mass(m);
     double const inertia = 0.4 * mass * m.radius * m.radius;

@@ -31,12 +31,7 @@ struct ImpactResult {
 /// @param tangential_speed  m/s
 ImpactResult integrate_impact(ContactMaterial const& material, double normal_speed, double tangential_speed);
 
-double effective_modulus(ContactMaterial const& material);            ///< E* = E / (2 (1 - nu^2)), Pa
-double effective_shear(ContactMaterial const& material);              ///< G* = E / (4 (2 - nu) (1 + nu)), Pa
-double sphere_mass(ContactMaterial const& material);                  ///< kg
-double hertz_force(ContactMaterial const& material, double overlap);  ///< 4/3 E* sqrt(R) d^(3/2), N
-
-/// The overlap at which the Hertz force equals `force`, m.
-double hertz_overlap(ContactMaterial const& material, double force);
-
+double effective_modulus(ContactMaterial const& material);  ///< E* = E / (2 (1 - nu^2)), Pa
+double effective_shear(ContactMaterial const& material);    ///< G* = E / (4 (2 - nu) (1 + nu)), Pa
+double sphere_mass(ContactMaterial const& material);        ///< kg
 }  // namespace vibrotrough::engine

@@ -5,17 +5,13 @@
 #include "core/text.hpp"
 #include "deck/deck.hpp"
 #include "deck/deck.hpp"
-#include "deck/deck_folder.hpp"
 #include "evaluate/case.hpp"
-#include "evaluate/impacts.hpp"
 #include "evaluate/packing.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <regex>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -79,20 +75,6 @@ prepare::PreparedCase read_case(fs::path const& file) {
     return prepare::prepare_case(campaign.cases.front());
 }
 
-/// Compares the deck in a folder with the deck that this program would write.
-void compare_deck(HandPacking& packing, prepare::PreparedCase const& prepared) {
-    auto own = deck::make_deck(prepared, {std::max(1, packing.number)}).files;
-    own.erase(deck::control_file);  // says only when the run ends
-    auto const there = deck::read_files(packing.folder, own);
-    for (auto const& [name, content] : there) {
-        packing.files.push_back(name);
-        if (content != own.at(name)) packing.edited.push_back(name);
-    }
-    packing.deck = there.empty()            ? DeckState::missing
-                   : packing.edited.empty() ? DeckState::unchanged
-                                            : DeckState::changed;
-}
-
 /// The whole number N of a line "variable n equal N" of a deck; none when there is no such line.
 std::optional<int> steps_per_cycle(fs::path const& deck) {
     if (!is_file(deck)) return {};
@@ -105,11 +87,10 @@ std::optional<int> steps_per_cycle(fs::path const& deck) {
 }
 
 /// How the engine's own output says that the run ended.
-std::string end_of_run(HandPacking& packing) {
+std::string end_of_run(fs::path const& folder) {
     for (char const* name : {"engine.out", "log.liggghts"}) {
-        fs::path const path = packing.folder / name;
+        fs::path const path = folder / name;
         if (!is_file(path)) continue;
-        packing.files.emplace_back(name);
         std::string const text = core::read_file(path);
         auto const error = text.rfind("\nERROR");
         if (error != text.npos) {
@@ -123,25 +104,14 @@ std::string end_of_run(HandPacking& packing) {
     return "not known: there is no log.liggghts";
 }
 
-void add_names(HandPacking& packing, PackingFiles const& files) {
-    packing.files.emplace_back("cycles.csv");
-    if (!files.phases.content.empty()) packing.files.emplace_back("phases.csv");
-    for (core::TextFile const& file : files.snapshots) packing.files.push_back(file.path.filename().string());
-}
-
 HandPacking measure_packing(prepare::PreparedCase prepared, fs::path const& folder) {
-    HandPacking packing{folder, std::max(1, number_of(folder)), DeckState::missing, {}, {}, 0, {}, {}, {}, {},
-                        {}};
-    compare_deck(packing, prepared);
+    HandPacking packing{
+        .folder = folder, .number = std::max(1, number_of(folder)), .end = end_of_run(folder)};
     if (auto const steps = steps_per_cycle(folder / deck::drive_file)) {
         prepared.time.steps_per_cycle = *steps;
         prepared.time.time_step = 1 / (prepared.scenario.trough.frequency * *steps);
     }
-    PackingFiles files = read_packing_files(folder);
-    add_names(packing, files);
-    if (auto impacts = find_impacts(prepared, folder))  // the engine's own files stay
-        files.snapshots.push_back({folder / impacts_file, *std::move(impacts)});
-    packing.end = end_of_run(packing);
+    PackingFiles const files = read_packing_files(folder);
     packing.cycles = extent_of_run(prepared, folder).cycles;
     if (packing.cycles < 2)
         throw core::InputError(
@@ -157,23 +127,10 @@ HandPacking measure_packing(prepare::PreparedCase prepared, fs::path const& fold
         packing.fault = fault.outcome;
         packing.message = fault.message;
     }
-    std::ranges::sort(packing.files);
     return packing;
 }
 
 }  // namespace
-
-std::string_view name_of(DeckState state) {
-    switch (state) {
-        case DeckState::unchanged:
-            return "unchanged";
-        case DeckState::changed:
-            return "changed";
-        case DeckState::missing:
-            return "missing";
-    }
-    throw std::invalid_argument("no such state of a deck");
-}
 
 HandRun measure_by_hand(fs::path const& folder, fs::path const& scenario_file) {
     std::vector<fs::path> const folders = folders_with_runs(folder);

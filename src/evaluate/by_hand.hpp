@@ -12,30 +12,17 @@
 // Runs that a person made by hand from a deck of 'vibrotrough deck', changed or not.
 namespace vibrotrough::evaluate {
 
-/// How a deck in a folder relates to what this program writes for its scenario.
-enum class DeckState {
-    unchanged,  ///< every file is as 'vibrotrough deck' wrote it, or would write it now
-    changed,    ///< a file differs
-    missing,    ///< there is no deck in the folder
-};
-
-/// The word for people and for JSON, such as "unchanged".
-std::string_view name_of(DeckState state);
-
 /// One packing that was run by hand.
 struct HandPacking {
-    std::filesystem::path folder;    ///< of the run
-    int number;                      ///< N of a folder packing-N, else 1
-    DeckState deck;                  ///< what its decks are
-    std::vector<std::string> edited;  ///< names of the files of the deck that differ
-    std::vector<std::string> files;   ///< names of the files that were read
-    int cycles;                      ///< whole cycles that were written
-    std::vector<double> efficiency;  ///< velocity efficiency of each cycle
-    std::string end;                 ///< how the run ended, in words
-    std::string mode;                ///< of the layer; empty when it is not known
+    std::filesystem::path folder;         ///< of the run
+    int number;                           ///< N of a folder packing-N, else 1
+    int cycles = 0;                       ///< whole cycles that were written
+    std::vector<double> efficiency = {};  ///< velocity efficiency of each cycle
+    std::string end;                      ///< how the run ended, in words
+    std::string mode = {};                ///< of the layer; empty when it is not known
     /// Why the run would not count in a campaign; none when it would.
-    std::optional<core::Outcome> fault;
-    std::string message;  ///< one line about the fault
+    std::optional<core::Outcome> fault = {};
+    std::string message = {};  ///< one line about the fault
 };
 
 /// What was measured in a folder.

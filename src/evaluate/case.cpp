@@ -2,7 +2,6 @@
 
 #include "evaluate/layer.hpp"
 #include "evaluate/open_trough.hpp"
-#include "evaluate/wear.hpp"
 #include "measure/mass_flow.hpp"
 #include "scenario/reader/written_campaign.hpp"
 #include "store/material_quantities.hpp"
@@ -125,7 +124,9 @@ std::string what_it_would_take(store::CaseRecord const& record) {
     return what_statistics_would_take(record) + "; besides, " + what_numerics_would_take(s);
 }
 
-std::string remark_on_mean(store::CaseRecord const& record) {
+}  // namespace
+
+std::string remark_on(store::CaseRecord const& record) {
     if (std::string flow = unsteady_flow(record); !flow.empty()) return flow;
     if (record.outcome == core::Outcome::not_precise) return what_it_would_take(record);
     if (record.outcome == core::Outcome::bistable_or_slow) {
@@ -133,19 +134,6 @@ std::string remark_on_mean(store::CaseRecord const& record) {
                            in_words(record.estimate.below), in_words(record.estimate.above));
     }
     return {};
-}
-
-}  // namespace
-
-std::string remark_on(store::CaseRecord const& record) {
-    std::string remark = remark_on_mean(record);
-    for (std::size_t i = 0; i < record.packings.size(); ++i) {
-        if (record.packings[i].rolling_problem.empty()) continue;
-        remark += fmt::format("{}packing {}: {}", remark.empty() ? "" : "; ", i + 1,
-                              record.packings[i].rolling_problem);
-        break;  // one line: the others have the same cure
-    }
-    return remark;
 }
 
 store::CaseRecord evaluate_case(prepare::PreparedCase const& prepared, std::string const& id,
@@ -157,7 +145,6 @@ store::CaseRecord evaluate_case(prepare::PreparedCase const& prepared, std::stri
     record.provenance = provenance_of(packings, engine_version);
     for (auto& [number, packing] : packings) record.packings.push_back(std::move(packing.record));
     add_estimate(record);
-    for (store::PackingRecord& packing : record.packings) measure_wear(packing, prepared);
     record.layer_mode = common_mode(record.packings);
     return record;
 }

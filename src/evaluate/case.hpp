@@ -26,8 +26,7 @@ measure::CaseEstimate estimate_of(std::vector<measure::PackingValues> const& pac
 measure::Precision wanted_statistics(scenario::Scenario const& scenario);
 
 /// What more a case would take that is not precise, or the branches of one that is bistable or slow: one line
-/// for people, empty for other outcomes. Also why the contacts at the floor are not known although
-/// measure.rolling asks for them.
+/// for people, empty for other outcomes.
 std::string remark_on(store::CaseRecord const& record);
 
 /// The result of a case from its packings.

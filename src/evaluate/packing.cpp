@@ -4,12 +4,9 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "deck/deck.hpp"
-#include "evaluate/impacts.hpp"
 #include "evaluate/layer.hpp"
 #include "evaluate/open_trough.hpp"
-#include "evaluate/rolling.hpp"
 #include "evaluate/screen.hpp"
-#include "evaluate/wear.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,10 +90,7 @@ store::PackingRecord measure_packing(prepare::PreparedCase const& prepared, int 
         measure_screen(record, prepared, files);
     } else {
         measure_layer(record, prepared, files, phases);
-        measure_rolling(record, prepared, files, phases);
     }
-    read_wear(record, prepared, files);
-    measure_impacts(record, prepared, files);
     return record;
 }
 
@@ -219,7 +213,6 @@ std::optional<EvaluatedPacking> read_packing(prepare::PreparedCase const& prepar
     auto const phases = packing_phases(prepared, files.phases);
     auto const series = first_of(parse(prepared, files.cycles), cycles, packing_folder);
     EvaluatedPacking evaluated{*marker, measure_packing(prepared, packing, files, series, phases)};
-    hold_to_marker(evaluated.record, files, *marker);
     add_run(evaluated.record, *marker);
     evaluated.record.deck = std::move(*deck);
     return evaluated;

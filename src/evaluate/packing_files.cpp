@@ -25,9 +25,9 @@ std::string digest_of_layer(PackingFiles const& files) {
     std::vector<std::string_view> pieces{files.phases.content};
     for (std::size_t i = 0; i < files.snapshots.size(); ++i) {
         // An open trough and a screen have no phases.
-        bool const stands_alone = std::ranges::any_of(
-            std::initializer_list<std::string_view>{"along.", "impacts.", "left.", "passed.", "wear."},
-            [&](std::string_view start) { return names[i].starts_with(start); });
+        bool const stands_alone =
+            std::ranges::any_of(std::initializer_list<std::string_view>{"along.", "left.", "passed."},
+                                [&](std::string_view start) { return names[i].starts_with(start); });
         if (files.phases.content.empty() && !stands_alone) continue;
         pieces.emplace_back(names[i]);
         pieces.emplace_back(files.snapshots[i].content);
@@ -38,28 +38,20 @@ std::string digest_of_layer(PackingFiles const& files) {
 }  // namespace
 
 PackingFiles read_packing_files(fs::path const& folder) {
-    PackingFiles files{folder,
-                       read_if_there(folder / "cycles.csv"),
-                       read_if_there(folder / "phases.csv"),
-                       read_if_there(folder / "rolling.csv"),
-                       {},
-                       {},
-                       {},
-                       {}};
+    PackingFiles files{
+        folder, read_if_there(folder / "cycles.csv"), read_if_there(folder / "phases.csv"), {}, {}, {}};
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder, missing)) {
         std::string const name = entry.path().filename().string();
         bool const is_dump =
             (name.starts_with("left.") || name.starts_with("passed.")) && name.ends_with(".dump");
-        bool const is_wear = name.starts_with("wear.") && name.ends_with(".vtk");
-        if (is_dump || is_wear || name == "impacts.csv" || name.starts_with("profiles.") ||
-            name.starts_with("surface.") || name.starts_with("along."))
+        if (is_dump || name.starts_with("profiles.") || name.starts_with("surface.") ||
+            name.starts_with("along."))
             files.snapshots.push_back(core::read_text_file(entry.path()));
     }
     std::ranges::sort(files.snapshots, {}, &core::TextFile::path);
     if (!files.cycles.content.empty()) files.cycles_sha256 = core::sha256_hex(files.cycles.content);
     files.layer_sha256 = digest_of_layer(files);
-    if (!files.rolling.content.empty()) files.rolling_sha256 = core::sha256_hex(files.rolling.content);
     return files;
 }
 
@@ -83,7 +75,6 @@ PackingMarker parse_marker(std::string_view text, PackingFiles const& files) {
                          note::text_if_any(json, "engine_certificate"),
                          json.contains("core_time") ? note::number(json, "core_time", 0) : wall_time,
                          {},
-                         note::text_if_any(json, "rolling_sha256"),
                          note::text_if_any(json, "deck_sha256")};
     if (json.contains("start_efficiency")) marker.start_efficiency = note::number(json, "start_efficiency");
     return marker;
@@ -114,7 +105,6 @@ std::string to_json(PackingFiles const& files, PackingMarker const& marker) {
               {"engine_certificate", marker.engine_certificate},
               {"cycles_sha256", files.cycles_sha256},
               {"layer_sha256", files.layer_sha256}};
-    if (!files.rolling_sha256.empty()) json["rolling_sha256"] = files.rolling_sha256;
     if (!marker.deck_sha256.empty()) json["deck_sha256"] = marker.deck_sha256;
     if (marker.start_efficiency) json["start_efficiency"] = *marker.start_efficiency;
     return json.dump(2) + "\n";

@@ -15,11 +15,9 @@ namespace vibrotrough::evaluate {
 struct PackingFiles {
     std::filesystem::path folder;           ///< of the packing
     core::TextFile cycles, phases;          ///< empty when there is no such file
-    core::TextFile rolling;                 ///< the contacts at the floor; empty when there is no such file
-    std::vector<core::TextFile> snapshots;  ///< of profiles, surface, wear ..., by name
+    std::vector<core::TextFile> snapshots;  ///< of profiles, surface ..., by name
     std::string cycles_sha256;              ///< of cycles.csv; empty without it
-    std::string layer_sha256;    ///< of everything that was written within the cycles but for `rolling`
-    std::string rolling_sha256;  ///< of `rolling`, without which the packing counts, too; empty without it
+    std::string layer_sha256;               ///< of everything that was written within the cycles
 };
 
 /// @throws core::MissingError when a file cannot be read
@@ -35,8 +33,7 @@ struct PackingMarker {
     double core_time = 0;
     /// Velocity efficiency with which all grains started; none when they started at rest.
     std::optional<double> start_efficiency = {};
-    std::string rolling_sha256 = "";  ///< of rolling.csv when the run ended; empty when there was none
-    std::string deck_sha256 = "";     ///< of in.liggghts as it was run; empty up to version 0.2
+    std::string deck_sha256 = "";  ///< of in.liggghts as it was run; empty up to version 0.2
 };
 
 /// Whether the folder has a marker, whatever it is worth.

@@ -4,13 +4,10 @@
 #include "measure/case_estimate.hpp"
 #include "measure/cycle_series.hpp"
 #include "measure/estimate.hpp"
-#include "measure/impacts.hpp"
 #include "measure/layer_motion.hpp"
 #include "measure/layer_profiles.hpp"
 #include "measure/open_flow.hpp"
-#include "measure/rolling_motion.hpp"
 #include "measure/screening.hpp"
-#include "measure/wear.hpp"
 #include "scenario/model/scenario.hpp"
 
 #include <optional>
@@ -36,18 +33,14 @@ struct PackingRecord {
     measure::LayerMotion motion;        ///< within the cycle, over the cycles kept
     measure::Profiles profiles;         ///< of the same cycles
     measure::Surface surface;           ///< of the layer in the same cycles
-    measure::RollingCurves rolling;     ///< of the same cycles, when measure.rolling asks for it
     measure::OpenFlow open;             ///< of an open trough
     measure::Screening screening;       ///< of a screen
-    measure::Wear wear;                 ///< of the trough, when measure.wear asks for it
-    measure::Impacts impacts;           ///< when measure.impacts asks for it
     std::optional<double> granular_temperature;  ///< m^2/s^2, see measure/granular_temperature.hpp
     std::optional<double> segregation;        ///< of the first of [[materials]], see measure/segregation.hpp
     std::optional<double> material_lead;      ///< its velocity efficiency less that of the grains
     std::optional<double> stage_speed;        ///< m/s, see store/stage_quantities.hpp
     std::optional<double> time_to_speed;      ///< s, pseudo-value of the packing
     std::optional<double> stopping_distance;  ///< m
-    std::string rolling_problem;  ///< why `rolling` is empty although it was asked for; else empty
 };
 
 /// Where and with what a result was made.

@@ -19,10 +19,6 @@ auto motion() {
     return packing_field([](auto& packing) -> auto& { return packing.motion.*member; });
 }
 
-auto coordination_number() {
-    return packing_field([](auto& packing) -> auto& { return packing.rolling.coordination_number; });
-}
-
 auto granular_temperature() {
     return packing_field([](auto& packing) -> auto& { return packing.granular_temperature; });
 }
@@ -153,18 +149,6 @@ std::vector<Quantity> motion_quantities() {
          Real([](Case c) { return half_width_over_packings(c, granular_temperature()); }),
          nothing,
          {{.place = 1232, .format = "{:.2g}", .position = 192}}},
-        added_later({"coordination_number", "1",
-                     "Mean contacts per grain, with other grains (counted for both) and with the floor, over "
-                     "the cycle; "
-                     "NaN without measure.rolling or measure.impacts",
-                     coordination_number(), mean}),
-        {"coordination_number_half_width", "1",
-         "Half-width of the interval of coordination_number at measure.confidence, Student's t over the "
-         "packings; NaN with one packing",
-         Real([](Case c) { return half_width_over_packings(c, coordination_number()); })},
-        added_later({"rolling_problem", "1",
-                     "Why the table rolling is empty although measure.rolling asks for it; else empty",
-                     packing_field([](auto& packing) -> auto& { return packing.rolling_problem; })}),
         {"gravity_power", "W",
          "Mean power of gravity on the conveyed layer, negative uphill: - m g sin(alpha) times the conveying "
          "speed",

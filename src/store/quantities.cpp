@@ -1,13 +1,11 @@
 #include "prepare/numerical_errors.hpp"
 #include "prepare/softness.hpp"
-#include "store/impact_quantities.hpp"
 #include "store/layer_quantities.hpp"
 #include "store/material_quantities.hpp"
 #include "store/open_quantities.hpp"
 #include "store/quantity.hpp"
 #include "store/screen_quantities.hpp"
 #include "store/stage_quantities.hpp"
-#include "store/wear_quantities.hpp"
 
 #include <limits>
 
@@ -366,8 +364,7 @@ std::vector<Quantity> const& quantities() {
         for (auto const& part :
              {drive_quantities(), efficiency_quantities(), flow_quantities(), run_quantities(),
               start_and_scatter_quantities(), grain_and_layer_quantities(), layer_quantities(),
-              material_quantities(), open_quantities(), screen_quantities(), stage_quantities(),
-              wear_quantities(), impact_quantities()})
+              material_quantities(), open_quantities(), screen_quantities(), stage_quantities()})
             rows.insert(rows.end(), part.begin(), part.end());
         return rows;
     }();

@@ -1,13 +1,11 @@
 #include "store/reference.hpp"
 
-#include "store/impact_quantities.hpp"
 #include "store/material_flow_tables.hpp"
 #include "store/observable.hpp"
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
 #include "store/screen_quantities.hpp"
 #include "store/stage_quantities.hpp"
-#include "store/wear_quantities.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,8 +20,6 @@ constexpr std::string_view real_type = "float64", whole_type = "int32", word_typ
 /// What there is one value of in a table of a packing.
 std::string_view shape_of(std::string_view group) {
     if (group == "profiles") return "bins";
-    if (group == "wear") return "triangles";
-    if (group == "impacts") return "classes";
     return group == "surface" ? "columns" : "samples";
 }
 
@@ -71,12 +67,8 @@ void add_packings(std::vector<NameInFile>& names) {
         add(names, ends ? "cycle_ends/<packing>/" : "series/<packing>/", real_type,
             ends ? "cycles + 1" : "cycles", series.entry);
     }
-    for (auto const* const tables :
-         {&packing_tables(), &rolling_tables(), &wear_tables(), &impact_tables()}) {
-        for (PackingTable const& table : *tables)
-            add(names, std::string(table.group) + "/<packing>/", real_type, shape_of(table.group),
-                table.entry);
-    }
+    for (PackingTable const& table : packing_tables())
+        add(names, std::string(table.group) + "/<packing>/", real_type, shape_of(table.group), table.entry);
     for (PackingTable const& table : material_tables(measure::most_materials, false))
         add(names, std::string(table.group) + "/<packing>/", real_type, "cycles + 1", table.entry);
     for (PackingTable const& table : material_tables(measure::most_materials, true))
@@ -114,8 +106,6 @@ void add_packings(std::vector<NameInFile>& names) {
     for (Entry const& entry : along_trough_entries()) add(names, "along_trough/", real_type, "bins", entry);
     for (Entry const& entry : residence_times_entries())
         add(names, "residence_times/", real_type, "101", entry);
-    for (Entry const& entry : impact_spectrum_entries())
-        add(names, "impact_spectrum/", real_type, "classes", entry);
     for (MassFlowColumn const& column : mass_flow_columns())
         add(names, "mass_flow/", real_type, "slabs", column.entry);
 }

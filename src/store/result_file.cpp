@@ -7,13 +7,11 @@
 #include "measure/reaction.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "store/hdf5_memory_file.hpp"
-#include "store/impact_quantities.hpp"
 #include "store/material_flow_tables.hpp"
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
 #include "store/screen_quantities.hpp"
 #include "store/stage_quantities.hpp"
-#include "store/wear_quantities.hpp"
 
 #include <map>
 #include <span>
@@ -217,12 +215,6 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
         source.files.push_back({name, core::note::text(files, name)});
     record.scenario =
         scenario::parse_campaign(record.scenario_toml, path.string() + ":/scenario", source).cases.front();
-    for (std::size_t i = 0; record.scenario.measure.rolling && i < record.packings.size(); ++i)
-        read_tables(file, i, record.packings[i], rolling_tables());
-    for (std::size_t i = 0; record.scenario.measure.wear && i < record.packings.size(); ++i)
-        read_tables(file, i, record.packings[i], wear_tables());
-    for (std::size_t i = 0; record.scenario.measure.impacts && i < record.packings.size(); ++i)
-        read_tables(file, i, record.packings[i], impact_tables());
     for (std::size_t i = 0; i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], tables_of_materials(record.scenario));
     for (std::size_t i = 0; is_open(record.scenario) && i < record.packings.size(); ++i)
@@ -297,13 +289,9 @@ std::string result_bytes(CaseRecord const& record) {
     add_case_table(file, "partition_cycles", partition_cycles_entries(), partition_cycles_table(record));
     add_case_table(file, "along_trough", along_trough_entries(), along_trough_table(record));
     add_case_table(file, "residence_times", residence_times_entries(), residence_times_table(record));
-    add_case_table(file, "impact_spectrum", impact_spectrum_entries(), impact_spectrum_table(record));
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
         add_tables(file, i, record.packings[i], packing_series());
         add_tables(file, i, record.packings[i], packing_tables());
-        if (record.scenario.measure.rolling) add_tables(file, i, record.packings[i], rolling_tables());
-        if (record.scenario.measure.wear) add_tables(file, i, record.packings[i], wear_tables());
-        if (record.scenario.measure.impacts) add_tables(file, i, record.packings[i], impact_tables());
         add_tables(file, i, record.packings[i], tables_of_materials(record.scenario));
         if (is_open(record.scenario))
             add_tables(file, i, record.packings[i], open_tables(record.scenario.trough.mesh != nullptr));

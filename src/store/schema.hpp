@@ -65,9 +65,6 @@ std::vector<CaseFact> const& case_facts();
 std::vector<PackingSeries> const& packing_series();
 /// All columns of the tables of a packing.
 std::vector<PackingTable> const& packing_tables();
-/// The columns of the table `rolling` of a packing, which only a case with measure.rolling has.
-std::vector<PackingTable> const& rolling_tables();
-
 /// The columns of the table `mass_flow`.
 std::vector<MassFlowColumn> const& mass_flow_columns();
 

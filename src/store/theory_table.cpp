@@ -3,7 +3,6 @@
 #include "core/csv.hpp"
 #include "core/nearest.hpp"
 #include "scenario/reader/keys.hpp"
-#include "scenario/reader/other_words.hpp"
 #include "store/theory_map.hpp"
 
 #include <algorithm>
@@ -51,15 +50,12 @@ constexpr std::array<AnswerColumn, 5> answer_columns{{
 
 using theory::InputColumn;
 
-/// The column that is meant by another name: by meaning, as in a campaign file ("mu" is friction, "stroke" is
-/// stroke_mm), or by spelling. Empty when none is.
+/// The column that is meant by another name: one with a unit ("stroke" is stroke_mm), or one that is spelt
+/// nearly so. Empty when none is.
 std::string column_meant(std::string const& name) {
     auto const all = theory::input_column_names();
-    std::string_view const key = scenario::key_in_other_words(name);
-    std::string_view const meant = key.empty() ? std::string_view(name) : scenario::last_name(key);
-    auto const found = std::ranges::find_if(all, [&](std::string const& one) {
-        return one == meant || one.starts_with(fmt::format("{}_", meant));
-    });
+    auto const found =
+        std::ranges::find_if(all, [&](std::string const& one) { return one.starts_with(name + "_"); });
     if (found != all.end()) return *found;
     std::vector<std::string_view> const words(all.begin(), all.end());
     return std::string(core::nearest_word(name, words));

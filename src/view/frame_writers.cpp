@@ -176,12 +176,7 @@ std::array<double, 6> TroughWriter::bounds() const {
     return bounds;
 }
 
-std::size_t TroughWriter::triangles() const {
-    return static_cast<std::size_t>(rest_->GetNumberOfCells());
-}
-
-void TroughWriter::write(std::filesystem::path const& path, TroughPosition const& position,
-                         std::vector<float>& wear, double time) {
+void TroughWriter::write(std::filesystem::path const& path, TroughPosition const& position, double time) {
     vtkNew<vtkPoints> points;
     points->SetNumberOfPoints(rest_->GetNumberOfPoints());
     for (vtkIdType i = 0; i < rest_->GetNumberOfPoints(); ++i) {
@@ -189,7 +184,6 @@ void TroughWriter::write(std::filesystem::path const& path, TroughPosition const
         points->SetPoint(i, node[0] + position.x, node[1], node[2] + position.z);
     }
     moved_->SetPoints(points);
-    if (!wear.empty()) moved_->GetCellData()->AddArray(view_of<vtkFloatArray>(wear, "wear", 1));
     set_time(*moved_, source_, time);
     write_vtp(path, *moved_);
 }

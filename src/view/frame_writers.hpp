@@ -55,11 +55,9 @@ class TroughWriter {
     /// @param source  must outlive the writer
     /// @param meshes  STL files of what moves, at rest
     TroughWriter(FrameSource const& source, std::vector<std::filesystem::path> const& meshes);
-    /// Writes the trough at `time` (s), with the wear of each triangle unless it is empty.
+    /// Writes the trough at `time` (s).
     /// @throws MissingError when the disk refuses
-    void write(std::filesystem::path const& path, TroughPosition const& position, std::vector<float>& wear,
-               double time);
-    std::size_t triangles() const;  ///< number of triangles
+    void write(std::filesystem::path const& path, TroughPosition const& position, double time);
 
     /// m, lower and upper bounds of x, y and z at rest.
     std::array<double, 6> bounds() const;

@@ -9,7 +9,6 @@
 #include "view/scene.hpp"
 #include "view/trough_motion.hpp"
 #include "view/vtk_files.hpp"
-#include "view/wear_frames.hpp"
 
 #include <algorithm>
 #include <array>
@@ -110,7 +109,6 @@ class FrameExport {
         : source_(source),
           target_(target),
           trough_(source, source.trough),
-          wear_(source),
           grains_(source),
           block_(trough_.bounds()) {
         if (source.point_mass) point_mass_.emplace(source, *source.point_mass);
@@ -130,8 +128,8 @@ class FrameExport {
         std::string const name = fmt::format("{:06}.vtp", files_.size());
         double const surface = trough_.bounds()[4] + position.z;
         grains_.write(target_ / "grains" / name, frame, surface, time);
-        trough_.write(target_ / "trough" / name, position, wear_.at(frame.step, trough_.triangles()), time);
-        if (walls_) walls_->write(target_ / "walls" / name, position, no_wear_, time);
+        trough_.write(target_ / "trough" / name, position, time);
+        if (walls_) walls_->write(target_ / "walls" / name, position, time);
         write_profile(target_ / "profile" / name, source_, frame, grains_.relative_velocity(), surface, time);
         if (point_mass_) {
             auto const block = block_.at(point_mass_->at(time), position.z, grains_.mean_velocity());
@@ -176,12 +174,10 @@ class FrameExport {
     FrameSource const& source_;
     fs::path target_;
     TroughWriter trough_;
-    WearFrames wear_;
     GrainWriter grains_;
     PointMassBlock block_;
     std::optional<PointMassMotion> point_mass_;
     std::optional<TroughWriter> walls_;
-    std::vector<float> no_wear_;
     std::vector<std::pair<double, std::string>> files_;
     std::optional<std::vector<std::pair<double, std::string>>> contacts_;
     ContactFrame contact_frame_;

@@ -37,10 +37,9 @@ struct FrameSource {
                           ///< may be empty
     Colour colour = Colour::velocity;             ///< what the scene colours the grains by
     std::vector<scenario::DrivePart> parts = {};  ///< of a drive with stages, in place of `drive`
-    int steps_per_cycle = 0;                      ///< of the engine, when there are parts or wear
+    int steps_per_cycle = 0;                      ///< of the engine, when there are parts
     /// Of a mixture: each material's type of the engine, with its name; none of other layers.
     std::vector<std::pair<int, std::string>> materials = {};
-    std::filesystem::path wear = {};  ///< holds wear.STEP.vtk; empty when there is no wear
 
     /// The time of a step of the engine, s.
     double time_of(long step) const;

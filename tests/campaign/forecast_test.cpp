@@ -14,10 +14,10 @@ TEST_F(ForecastTest, SpeedIsTheWorkOfTheResultsOverTheirTime) {
     auto const with_result = [&](double core_time) {
         CaseOverview const known{&one, CaseStatus::ended, {}, "", 2, ResultFacts{2, 60, core_time, 0.01}};
         CaseOverview const open{&one, CaseStatus::open, {}, "", 0, {}};
-        return forecast(plan, {known, open});
+        return forecast({known, open});
     };
     Forecast const slow = with_result(20), fast = with_result(10);
-    EXPECT_EQ(slow.source, Forecast::SpeedSource::results);
+    EXPECT_EQ(slow.results, 1);
     EXPECT_DOUBLE_EQ(slow.speed, planned.prepared->work(60) / 20);
     EXPECT_DOUBLE_EQ(fast.speed, 2 * slow.speed);
     EXPECT_GT(slow.core_time, 0);

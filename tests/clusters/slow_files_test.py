@@ -42,7 +42,6 @@ class SlowFiles(ManyCases):
     def test_the_program_itself_takes_less_than_50_ms_a_case(self):
         campaign = self.write_many("spheres", CASES)
         options = [option for option in DRIVER_OPTIONS if option != "--quiet"]
-        self.call("probe-engine", "--liggghts", self.engine)  # which the stub fails
         tasks = self.folder / "tasks"
         shared = [campaign, "--output", self.output, "--liggghts", self.engine, *options]
         taken = {"prepare": self.take("prepare", ["prepare", *shared, "--task-list", tasks])}

@@ -15,24 +15,19 @@
 namespace vibrotrough::deck {
 namespace {
 
-constexpr char const* three_places =
-    "[after-contact]\nfix a all viscous 0.1\n[before-first-cycle]\ncompute b all ke\n"
-    "[at-cycle-end]\nprint \"cycle ${done}\"\n";
-
-prepare::PreparedCase prepared(std::string const& engine, std::string const& extra = three_places,
-                               std::vector<scenario::NamedFile> files = {}) {
-    files.push_back({"x.liggghts", extra});
+prepare::PreparedCase prepared(std::string const& engine,
+                               std::vector<scenario::NamedFile> const& files = {}) {
     return prepare::prepare_case(
         scenario::parse_campaign(example_campaign + "[engine]\n" + engine, "test.toml", {{}, files})
             .cases.front());
 }
 
-Deck deck(std::string const& engine, std::string const& extra = three_places) {
-    return make_deck(prepared(engine, extra), {1});
+Deck deck(std::string const& engine) {
+    return make_deck(prepared(engine), {1});
 }
 
-std::string digest(std::string const& engine, std::string const& extra = three_places) {
-    return digest_of(deck(engine, extra).files);
+std::string digest(std::string const& engine) {
+    return digest_of(deck(engine).files);
 }
 
 bool holds(std::string const& text, std::string const& part) {
@@ -50,7 +45,7 @@ std::optional<Finding> finding(prepare::PreparedCase const& c, std::string const
 TEST(EngineSection, DefaultsChangeNoByte) {
     auto const plain = make_deck(
         prepare::prepare_case(scenario::parse_campaign(example_campaign, "test.toml").cases.front()), {1});
-    EXPECT_EQ(deck("contact = \"hertz\"\ncohesion = \"0 J/m3\"\nextra = \"none\"\n").files, plain.files);
+    EXPECT_EQ(deck("contact = \"hertz\"\ncohesion = \"0 J/m3\"\n").files, plain.files);
 }
 
 TEST(EngineSection, ContactAndCohesionAreInBothDecksAndAtTheWalls) {
@@ -78,37 +73,15 @@ TEST(EngineSection, ContactAndCohesionAreInBothDecksAndAtTheWalls) {
         holds(rolling, "model hertz tangential history cohesion sjkr rolling_friction epsd2 limitForce"));
 }
 
-// The places: behind the contact model of both decks, above the label of the cycles, behind each run.
-TEST(EngineSection, ExtraLinesStandAtTheirPlaces) {
-    Deck const both = deck("extra = \"x.liggghts\"\n");
-    std::string const &settle = both.files.at("settle.liggghts"), &driven = both.files.at("in.liggghts");
-    for (std::string const& text : {settle, driven}) {
-        std::size_t const at = text.find("\nfix a all viscous 0.1\n");
-        EXPECT_LT(text.find("pair_coeff"), at);
-        EXPECT_LT(at, text.find("fix             trough all mesh"));
-    }
-    EXPECT_FALSE(holds(settle, "compute b") || holds(settle, "cycle ${done}\""));
-    std::size_t const before = driven.find("\ncompute b all ke\n"),
-                      each = driven.find("\nprint \"cycle ${done}\"\n");
-    EXPECT_LT(driven.find("fix             surface"), before);
-    EXPECT_LT(before, driven.find("label           cycle\n"));
-    EXPECT_LT(driven.find("variable        done index ${more}\n"), each);
-    EXPECT_LT(each, driven.find("include         control.in\n"));
-}
-
-// The id of a case is a hash of the commands: those of the file belong to it, its comments do not.
-TEST(EngineSection, TheCommandsOfTheLinesBelongToTheId) {
-    std::string const with_lines = digest("extra = \"x.liggghts\"\n");
-    EXPECT_NE(with_lines, digest(""));
-    EXPECT_EQ(with_lines, digest("extra = \"x.liggghts\"\n", "# a comment\n" + std::string(three_places)));
-    EXPECT_NE(with_lines, digest("extra = \"x.liggghts\"\n", three_places + std::string("print \"more\"\n")));
+// The id of a case is a hash of the commands.
+TEST(EngineSection, TheModelsBelongToTheId) {
     EXPECT_NE(digest("contact = \"hooke\"\n"), digest(""));
     EXPECT_NE(digest("cohesion = \"1 J/m3\"\n"), digest(""));
 }
 
 TEST(EngineSection, TemplatesAreReplaced) {
     auto const with_template = [](std::string const& name, std::string const& text) {
-        return make_deck(prepared("templates = [\"" + name + "\"]\n", three_places, {{name, text}}), {1});
+        return make_deck(prepared("templates = [\"" + name + "\"]\n", {{name, text}}), {1});
     };
     Deck const plain = deck("");
     Deck const other = with_template("inputs.mustache", "# {{{grains}}} grains, in my own words\n");

@@ -50,20 +50,6 @@ TEST(FramesDeck, ContactsAreAddedAtTheEnd) {
     EXPECT_THAT(drive_of(filmed("contacts = true"), 2), Not(HasSubstr("# --- contacts:")));
 }
 
-// The engine allows one compute of each kind, so that measure.rolling and output.contacts share it.
-TEST(FramesDeck, ContactsShareTheComputeOfRolling) {
-    std::string const both =
-        drive_of(filmed("contacts = true", with("max_cycles = 200", "max_cycles = 200\nrolling = true")));
-    std::size_t found = 0;
-    for (std::size_t at = both.find("wall/gran/local"); at != std::string::npos;
-         at = both.find("wall/gran/local", at + 1))
-        ++found;
-    EXPECT_EQ(found, 1u);
-    EXPECT_THAT(both, HasSubstr("wall/gran/local pos id force_normal force_tangential torque delta\n"));
-    EXPECT_THAT(both, HasSubstr("reduce sum c_floor_contacts[17]\n"));
-    EXPECT_THAT(both, HasSubstr("c_floor_contacts[15] c_floor_contacts[19]\n"));
-}
-
 TEST(FramesDeck, EstimatesCountPackingsAndContacts) {
     double const one = bytes_of(filmed(""), 4, 24), all = bytes_of(filmed("frame_packings = \"all\""), 4, 24);
     auto const none =

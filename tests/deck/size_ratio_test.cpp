@@ -25,8 +25,8 @@ Finding finding(scenario::Scenario const& s, std::string const& key, std::string
     return *found;
 }
 
-// Spheres of 1 mm and 30 mm: beyond the ratio of 20 that the probe has shown to be right.
-TEST(SizeRatio, WarnsBeyondWhatWasProbed) {
+// Spheres of 1 mm and 30 mm: beyond the ratio of 20 that was tried.
+TEST(SizeRatio, WarnsBeyondWhatWasTried) {
     scenario::Scenario s = sample();
     EXPECT_NEAR(finding(s, "grains.diameter_spread", "largest sphere").measured, 3.3 / 2.7, 1e-9);
     EXPECT_EQ(finding(s, "grains.diameter_spread", "largest sphere").severity, Severity::fine);

@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 import h5py
-from trough_program import PATIENCE, EndToEndTest, campaign_text, count_cycles
+from trough_program import PATIENCE, EndToEndTest, campaign_text
 
 GRAVITY = 9.81
 ONE_SIZE = {"grains.diameter_spread": 0.0, "measure.packings": 1}
@@ -202,39 +202,6 @@ class EngineSection(EndToEndTest):
         self.assertEqual(self.take_starts(), [])
         self.assertEqual([row["case"] for row in self.table()], [table[0]["case"]])
         self.assertNotIn("not covered", self.call("compare", self.output).stdout)
-
-    def test_extra_lines_are_run_at_their_places(self):
-        (self.folder / "extra.liggghts").write_text(
-            "# what I add\n[after-contact]\nprint \"AFTER CONTACT\"\n[before-first-cycle]\nvariable mine equal ke\n"
-            'print "BEFORE FIRST ${done}" append mine.txt\n[at-cycle-end]\nprint "${done},${mine}" append mine.txt\n')  # fmt: skip
-        campaign = self.write_engine_campaign({"extra": '"extra.liggghts"'}, {"output.checkpoint_cycles": 10})
-        for command in (["run", campaign, "--output", self.output, "--liggghts", self.engine], ["deck", campaign, "--output", self.output],
-                        ["friction-test", campaign, "--output", self.output, "--liggghts", self.engine],
-                        ["convergence", campaign, "--output", self.output, "--liggghts", self.engine]):  # fmt: skip
-            self.assert_one_line_error(self.call(*command), 2, "extra.liggghts", 'print "AFTER CONTACT"', "--allow-extra")
-        self.assertEqual(self.take_starts(), [])
-        done = self.call(*self.run_arguments(campaign), "--allow-extra")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("not covered by the engine's certificate: lines of extra.liggghts\n", done.stderr)
-        (row,) = self.table()
-        self.assertEqual(row["not_covered"], "lines of extra.liggghts")
-        packing = self.output / "cases" / row["case"] / "packing-1"
-        written = (packing / "mine.txt").read_text().splitlines()
-        begins = [line for line in written if line.startswith("BEFORE")]
-        # The engine begins anew at each checkpoint: every ten cycles, and where the run was continued.
-        self.assertEqual(begins[0], "BEFORE FIRST 0")
-        self.assertLessEqual({"BEFORE FIRST 10", "BEFORE FIRST 20"}, set(begins))
-        cycles = count_cycles(packing / "cycles.csv")
-        self.assertEqual([line.split(",")[0] for line in written if line not in begins], [str(cycle) for cycle in range(1, cycles + 1)])
-        self.assertIn("AFTER CONTACT", (packing / "engine.out").read_text())
-        # A comment changes nothing; a command makes another case.
-        extra = self.folder / "extra.liggghts"
-        extra.write_text(extra.read_text() + "# another comment\n")
-        self.assertEqual(self.call(*self.run_arguments(campaign), "--allow-extra").returncode, 0)
-        self.assertEqual({start.split("/")[0] for start in self.take_starts()}, {row["case"]})
-        extra.write_text(extra.read_text() + 'print "and more"\n')
-        plan = self.call("plan", campaign, "--output", self.output, "--liggghts", self.engine)
-        self.assertNotIn(row["case"], plan.stdout)
 
     def test_templates_of_a_folder_replace_those_of_the_program(self):
         campaign = self.write_campaign(ONE_SIZE)

@@ -1,5 +1,5 @@
 """Each kind of machine: an own trough, an open one, which is fed with a mixture or in stages, a mixture, a drive in stages, screens with a
-batch and with a feed, and what has files of its own, wear and impacts. The smallest campaign of each runs to its end, has the numbers of
+batch and with a feed. The smallest campaign of each runs to its end, has the numbers of
 its kind, a frame of each cycle for ParaView, and an archive that says the same.
 """
 
@@ -8,13 +8,11 @@ import re
 import unittest
 
 import fed_screen_test
-import impacts_test
 import mixture_test
 import open_trough_test
 import own_trough_test
 import screen_test
 import stages_test
-import wear_test
 from trough_program import EndToEndTest, campaign_text, without_wall_time
 
 # One packing with one frame per cycle. What is frequent enough that a kill costs cycles, and rare enough that it costs some.
@@ -29,8 +27,6 @@ KINDS = {
     "stages": ({**stages_test.DRIVE, **stages_test.PLAN}, stages_test.STAGES, ["stage_speed_m_per_s"]),
     "screen": (screen_test.SCREEN, "", ["screening_efficiency"]),
     "fed screen": (fed_screen_test.FED_SCREEN, "", ["screening_efficiency", "outflow_t_per_h"]),
-    "wear": (wear_test.SHORT, "", ["specific_wear_j_per_t_m"]),
-    "impacts": (impacts_test.SHORT, "", ["impact_power_w_per_kg", "trough_impact_power_w_per_kg"]),
 }
 WITHOUT_MOST = ("stages", "screen", "fed stages")  # these refuse measure.max_packings
 

@@ -14,6 +14,7 @@ import numpy as np
 from mixture_test import LAYER, MATERIALS
 from trough_program import EndToEndTest, campaign_text, sample
 
+SOURCES = Path(__file__).resolve().parent.parent.parent
 FRAMES = {"output.frames_per_cycle": 4, "output.frame_packings": "all", "output.contacts": True, "measure.packings": 2,
           "measure.max_cycles": 30}  # fmt: skip
 HEAD = "import numpy as np\nimport vibrotrough\n\n"
@@ -131,16 +132,17 @@ class Observe(EndToEndTest):
         self.assertAlmostEqual(ratio, 1, delta=0.02)
         np.testing.assert_allclose(np.array(found) / ratio, wanted, rtol=0, atol=1e-4)
 
-    def test_files_of_extra_lines_are_observables(self):
-        """Files that engine.extra writes, which need no frames. With ${now} in their names they keep all cycles although the engine begins anew at
+    def test_files_of_own_templates_are_observables(self):
+        """Files that engine.templates write, which need no frames. With ${now} in their names they keep all cycles although the engine begins anew at
         each checkpoint; without it only those since the last one are left."""
-        (self.folder / "own.liggghts").write_text(
-            "[before-first-cycle]\ncompute own all ke\nvariable own_energy equal c_own\n"
+        (self.folder / "cycles.mustache").write_text(
+            "compute own all ke\nvariable own_energy equal c_own\n"
             'fix own all print ${n} "${now},${own_energy}" file own.${now}.csv screen no title "step,energy"\n'
             'fix lost all print ${n} "${now},${own_energy}" file lost.csv screen no title "step,energy"\n'
-            "fix mean all ave/time 1 ${n} ${n} c_own file mean.${now}.txt\n")  # fmt: skip
+            "fix mean all ave/time 1 ${n} ${n} c_own file mean.${now}.txt\n"
+            + (SOURCES / "input_templates" / "cycles.mustache").read_text())  # fmt: skip
         path = self.folder / "campaign.toml"
-        path.write_text(campaign_text({"output.checkpoint_cycles": 10, "measure.packings": 1}) + '[engine]\nextra = "own.liggghts"\n')
+        path.write_text(campaign_text({"output.checkpoint_cycles": 10, "measure.packings": 1}) + '[engine]\ntemplates = ["cycles.mustache"]\n')
         done = self.call(*self.run_arguments(path), "--allow-extra")
         self.assertIn(done.returncode, (0, 1), done.stderr)
         function = '''@vibrotrough.observable(unit="J", of="packing", needs="{0}")

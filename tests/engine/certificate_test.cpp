@@ -1,13 +1,11 @@
 #include "engine/certificate.hpp"
 
 #include "core/temporary_folder.hpp"
-#include "engine/certificate_cache.hpp"
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -17,17 +15,12 @@ namespace {
 namespace fs = std::filesystem;
 
 ProbeResult probe(Comparison comparison, double expected, double measured, double tolerance) {
-    return {"name", "question?", "source", "m", comparison, expected, measured, tolerance, "because", ""};
+    return {"name", "question?", "source", comparison, expected, tolerance, "because", measured, ""};
 }
 
 Certificate sample() {
     return {{"/opt/liggghts", "aa", "/opt/lib.so", "bb", "LIGGGHTS 3.8.0", "cc"},
-            "0.1.0",
-            "abcdef",
-            "trough",
             "2026-11-21T12:00:00Z",
-            6.1e6,
-            1008,
             {probe(Comparison::near, 0.5, 0.1 + 0.2, 0.3), probe(Comparison::at_most, 1, -3, 0)}};
 }
 
@@ -49,29 +42,6 @@ TEST(Certificate, WithoutAProbeProvesNothing) {
     EXPECT_TRUE(certificate.passed());
     certificate.probes.clear();
     EXPECT_FALSE(certificate.passed());
-}
-
-TEST(Certificate, RoundTrip) {
-    Certificate certificate = sample();
-    certificate.probes[1].measured = NAN;
-    certificate.probes[1].problem = "ERROR: no \"such\" thing";
-    auto const read = parse_certificate(to_json(certificate));
-    ASSERT_TRUE(read);
-    EXPECT_EQ(to_json(*read), to_json(certificate));
-    EXPECT_EQ(read->engine.key(), certificate.engine.key());
-    EXPECT_EQ(read->probes[0].measured, 0.1 + 0.2);
-    EXPECT_TRUE(std::isnan(read->probes[1].measured));
-}
-
-TEST(Certificate, DamageIsNoticed) {
-    std::string const whole = to_json(sample());
-    for (std::size_t length = 0; length + 2 < whole.size(); length += 7)
-        EXPECT_FALSE(parse_certificate(whole.substr(0, length))) << length;
-    std::string changed = whole;
-    changed.replace(changed.find("6100000"), 7, "9100000");
-    EXPECT_FALSE(parse_certificate(changed));
-    for (char const* text : {"", "[]", "{}", "no JSON", "{\"content_sha256\": 3}"})
-        EXPECT_FALSE(parse_certificate(text)) << text;
 }
 
 TEST(EngineIdentity, IsThatOfTheBinaryNotOfItsPath) {
@@ -109,7 +79,7 @@ TEST_F(CertificateCache, KeepsWhatPassed) {
     EXPECT_FALSE(find_certificate(sample().engine));
     EXPECT_EQ(keep_certificate(sample()), "");
     ASSERT_TRUE(find_certificate(sample().engine));
-    EXPECT_EQ(to_json(*find_certificate(sample().engine)), to_json(sample()));
+    EXPECT_EQ(*find_certificate(sample().engine), to_json(sample()));
     EngineIdentity other = sample().engine;
     other.program_sha256 = "another binary";
     EXPECT_FALSE(find_certificate(other));

@@ -62,15 +62,5 @@ TEST(ContactLaw, NoImpactGainsEnergy) {
     }
 }
 
-// Hertz: F = 4/3 E* sqrt(R) d^1.5 and its inverse.
-TEST(ContactLaw, HertzForceAndOverlapAreInverses) {
-    ContactMaterial const m = material(0.5, 0.2);
-    EXPECT_NEAR(effective_modulus(m), 5e6 / 2 / (1 - 0.1225), 1e-6);
-    EXPECT_NEAR(hertz_force(m, 1e-5),
-                4.0 / 3 * effective_modulus(m) * std::sqrt(0.0015) * std::pow(1e-5, 1.5), 1e-15);
-    EXPECT_NEAR(hertz_overlap(m, hertz_force(m, 1e-5)), 1e-5, 1e-18);
-    EXPECT_NEAR(sphere_mass(m), 1400 * std::numbers::pi / 6 * std::pow(0.003, 3), 1e-15);
-}
-
 }  // namespace
 }  // namespace vibrotrough::engine

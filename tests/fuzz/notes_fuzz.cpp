@@ -3,9 +3,7 @@
 // when it is written and read again.
 
 #include "campaign/state/notes.hpp"
-#include "core/hash.hpp"
 #include "core/note.hpp"
-#include "engine/certificate.hpp"
 #include "evaluate/packing_files.hpp"
 #include "learn/design_file.hpp"
 #include "learn/notes.hpp"
@@ -50,7 +48,6 @@ void check_marker(std::string_view text) {
     evaluate::PackingFiles files;
     files.cycles_sha256 = "cycles";
     files.layer_sha256 = "layer";
-    files.rolling_sha256 = "rolling";
     auto const marker = believed([&] { return evaluate::parse_marker(text, files); });
     if (!marker) return;
     require_number(marker->wall_time, 0);
@@ -58,20 +55,6 @@ void check_marker(std::string_view text) {
     require_number(marker->start_efficiency, -INFINITY);
     std::string const written = to_json(files, *marker);
     require(to_json(files, evaluate::parse_marker(written, files)) == written);
-}
-
-/// With the digest of what is there, because nothing else would ever be believed.
-void check_certificate(std::string_view text) {
-    auto json = believed([&] { return core::note::parse(text); });
-    if (!json || !json->is_object()) return;
-    json->erase("content_sha256");
-    (*json)["content_sha256"] = core::sha256_hex(json->dump());
-    auto const certificate = engine::parse_certificate(json->dump());
-    if (!certificate) return;
-    require(certificate->speed_grains >= 0);
-    std::string const written = to_json(*certificate);
-    auto const again = engine::parse_certificate(written);
-    require(again && to_json(*again) == written && again->passed() == certificate->passed());
 }
 
 void check_case(std::string_view text) {
@@ -141,7 +124,6 @@ void check_learned(std::string_view text) {
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
     std::string_view const text(reinterpret_cast<char const*>(data), size);
     check_marker(text);
-    check_certificate(text);
     check_case(text);
     check_tasks(text);
     check_campaign(text);

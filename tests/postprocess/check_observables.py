@@ -170,6 +170,7 @@ def check_forces(folder):
         wanted[[2, 6]] = 2  # from 0.5 and from 1.5 on
         assert np.allclose(density, wanted, rtol=1e-12) and np.allclose(at[[2, 6]], [0.625, 1.625])
         assert math.isclose((density * 0.25).sum(), 1)
+        assert observables.coordination_number(cycle) == 2.25  # four contacts of four grains, and one with the trough
 
 
 def check_stress(folder):

@@ -12,13 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-FileSource const known_files{
-    {},
-    {{"a.liggghts",
-      "# a comment\n[after-contact]\nfix a all viscous 0.1  # drag\n\n[at-cycle-end]\n"
-      "print\t\"cycle ${done}\"\r\n"},
-     {"b.liggghts", "[before-first-cycle]\ncompute b all ke"},
-     {"contact.mustache", "text"}}};
+FileSource const known_files{{}, {{"contact.mustache", "text"}}};
 
 Campaign campaign(std::string const& engine, std::string const& text = example_campaign) {
     return parse_campaign(text + "[engine]\n" + engine, "test.toml", known_files);
@@ -34,10 +28,6 @@ std::string error_of(std::string const& engine, FileSource const& source = known
     return "no error";
 }
 
-std::string error_of_lines(std::string const& lines) {
-    return error_of("extra = \"x.liggghts\"\n", {{}, {{"x.liggghts", lines}}});
-}
-
 // A case without the section is written as it always was, so that its id stays.
 TEST(EnginePlan, NothingIsWrittenWithoutIt) {
     Scenario const s = parse_campaign(example_campaign, "test.toml").cases.front();
@@ -48,45 +38,35 @@ TEST(EnginePlan, NothingIsWrittenWithoutIt) {
 }
 
 TEST(EnginePlan, IsReadAndWrittenBack) {
-    Scenario const s =
-        campaign(
-            "contact = \"hooke\"\ncohesion = \"0.05 MJ/m3\"\nextra = \"a.liggghts\"\ntemplates = "
-            "[\"contact.mustache\"]\n")
-            .cases.front();
+    Scenario const s = campaign(
+                           "contact = \"hooke\"\ncohesion = \"0.05 MJ/m3\"\ntemplates = "
+                           "[\"contact.mustache\"]\n")
+                           .cases.front();
     EXPECT_EQ(s.engine.contact, ContactModel::hooke);
     EXPECT_NEAR(s.engine.cohesion, 5e4, 1e-9);
-    EXPECT_EQ(s.engine.extra->after_contact, "fix a all viscous 0.1  # drag\n");
-    EXPECT_EQ(s.engine.extra->before_first_cycle, "");
-    EXPECT_EQ(s.engine.extra->at_cycle_end, "print \"cycle ${done}\"\n");
-    EXPECT_EQ(not_covered(s.engine),
-              "contact hooke, cohesion sjkr, lines of a.liggghts, template contact.mustache");
-    EXPECT_EQ(named_files(s).size(), 2u);
+    EXPECT_EQ(not_covered(s.engine), "contact hooke, cohesion sjkr, template contact.mustache");
+    EXPECT_EQ(named_files(s).size(), 1u);
     Scenario const again = parse_campaign(to_toml(s), "again", {{}, named_files(s)}).cases.front();
     EXPECT_EQ(to_toml(again), to_toml(s));
-    EXPECT_EQ(again.engine.extra->at_cycle_end, s.engine.extra->at_cycle_end);
     EXPECT_EQ(again.engine.templates->files.front().content, "text");
 }
 
 TEST(EnginePlan, IsSwept) {
     Campaign const swept = parse_campaign(example_campaign +
                                               "[sweep]\n\"engine.contact\" = [\"hertz\", \"hooke\"]\n"
-                                              "\"engine.extra\" = [\"none\", \"b.liggghts\"]\n"
                                               "\"engine.cohesion\" = [\"0 J/m3\", \"1 kJ/m3\"]\n",
                                           "test.toml", known_files);
-    ASSERT_EQ(swept.cases.size(), 8u);
+    ASSERT_EQ(swept.cases.size(), 4u);
     EXPECT_EQ(std::get<std::string>(*key_value(swept.cases.back(), "engine.contact")), "hooke");
-    EXPECT_EQ(std::get<std::string>(*key_value(swept.cases.back(), "engine.extra")), "b.liggghts");
     auto const read = parse_campaign(campaign_toml(swept.cases, "all"), "all.toml", known_files).cases;
-    ASSERT_EQ(read.size(), 8u);
-    for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(to_toml(read[i]), to_toml(swept.cases[i]));
+    ASSERT_EQ(read.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(to_toml(read[i]), to_toml(swept.cases[i]));
 }
 
 TEST(EnginePlan, MistakesAreNamed) {
     EXPECT_THAT(error_of("contact = \"jkr\"\n"), HasSubstr("engine.contact: 'jkr' is not an allowed value"));
     EXPECT_THAT(error_of("cohesion = \"-1 J/m3\"\n"), HasSubstr("out of range"));
     EXPECT_THAT(error_of("cohesion = 5\n"), HasSubstr("no unit"));
-    for (char const* name : {"../a.liggghts", "/etc/a.liggghts", "a.csv", ".liggghts", "-a.liggghts"})
-        EXPECT_THAT(error_of("extra = \"" + std::string(name) + "\"\n"), HasSubstr("engine.extra")) << name;
     for (char const* name : {"../a.mustache", "contact", "x.csv"})
         EXPECT_THAT(error_of("templates = [\"" + std::string(name) + "\"]\n"),
                     HasSubstr("name of a template"));
@@ -95,18 +75,6 @@ TEST(EnginePlan, MistakesAreNamed) {
         with("height = \"12 mm\"", "block = \"point\"", with("diameter_spread = 0.1", ""));
     EXPECT_THAT(error_of("contact = \"hooke\"\n", known_files, block), HasSubstr("contact of its own"));
     EXPECT_THAT(error_of("cohesion = \"1 J/m3\"\n", known_files, block), HasSubstr("contact of its own"));
-}
-
-// What would escape the case's id, or end, repeat or shift the cycles, is found.
-TEST(EnginePlan, MistakesInTheLinesAreNamed) {
-    EXPECT_THAT(error_of_lines("fix a all nve\n"), HasSubstr("line 1: a command stands above"));
-    EXPECT_THAT(error_of_lines("[somewhere]\n"), HasSubstr("line 1: '[somewhere]' is not"));
-    EXPECT_THAT(error_of_lines("# nothing\n[at-cycle-end]\n"), HasSubstr("no command"));
-    EXPECT_THAT(error_of_lines("[at-cycle-end]\nfix a all &\n"), HasSubstr("line 2: a command must be"));
-    EXPECT_THAT(error_of_lines("[at-cycle-end]\na\x1b[2Jb\n"), HasSubstr("printable"));
-    for (char const* command : {"include other", "run 10", "clear", "quit", "jump other.in", "timestep 1"})
-        EXPECT_THAT(error_of_lines("[at-cycle-end]\n " + std::string(command)), HasSubstr("is not allowed"));
-    EXPECT_EQ(error_of_lines("[at-cycle-end]\njump SELF there\n"), "no error");
 }
 
 }  // namespace

@@ -81,10 +81,6 @@ TEST(Screen, RefusesWhatItCannotHave) {
     std::string const plain = with("max_cycles = 200", "");
     EXPECT_THAT(error_of(screened(whole, example_campaign)),
                 HasSubstr("measure.max_cycles: how long a run is"));
-    EXPECT_THAT(error_of(screened(whole, with("max_cycles = 200", "wear = true"))),
-                HasSubstr("measure.wear: "));
-    EXPECT_THAT(error_of(screened(whole, with("max_cycles = 200", "rolling = true"))),
-                HasSubstr("measure.rolling: "));
     EXPECT_THAT(error_of(screened(
                     whole, with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0", plain))),
                 HasSubstr("trough.side_wall_friction: "));

@@ -317,8 +317,6 @@ TEST_F(MeshCampaign, PairsGiveSolidsAFrictionOfTheirOwn) {
     EXPECT_THAT(
         error(on_mesh() + rubber + "\n[[pairs]]\nmaterials = [\"grains\", \"steel\"]\nrestitution = 0.8\n"),
         HasSubstr("every solid of the mesh has coefficients of its own; leave one of them to"));
-    EXPECT_THAT(error(on_mesh(with("half_width", "wear = true\nhalf_width")) + rubber),
-                HasSubstr("measure.wear: is measured only where all of the mesh"));
 }
 
 TEST_F(MeshCampaign, MistakesAreNamed) {

@@ -62,7 +62,7 @@ def check_file(path, heading, reference, others=frozenset()):
     with h5py.File(path) as file:
         for name, data in written(file).items():
             shapes = dict(SHAPES[heading])
-            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|rolling|profiles|surface|flow|along|material_flow|material_along|residence|screen|sizes|passed|through|size_cycles|wear|impacts)/(\d+)/(\w+)", name)
+            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|profiles|surface|flow|along|material_flow|material_along|residence|screen|sizes|passed|through|size_cycles)/(\d+)/(\w+)", name)
             row_name = f"{series[1]}/<packing>/{series[3]}" if series else name
             if name.startswith("swept/"):
                 row_name = "swept/<key>"
@@ -161,9 +161,6 @@ def check_result_values(file):
     assert case["largest_overlap"] == 4.5e-5 and math.isnan(case["friction_ratio"])
     scale = 0.0099 * (omega * 0.006) ** 2
     assert math.isclose(case["dissipation_fraction"], (0.001 + 0.25 / 1024) / scale, rel_tol=1e-14)
-    # Student's t for one degree of freedom is tan(0.95 pi / 2); two packings with 2.5 and 3.
-    assert case["coordination_number"] == 2.75 and list(file["packings"]["coordination_number"]) == [2.5, 3.0]
-    assert math.isclose(case["coordination_number_half_width"], math.tan(0.95 * math.pi / 2) * 0.25, rel_tol=1e-12)
     assert math.isclose(case["gravity_power"], 0.0099 * 9.81 * math.sin(0.05) * wanted["conveying_speed"], rel_tol=1e-13)
     assert math.isclose(case["dissipated_power"], 13.5 * (0.001 + 0.25 / 1024), rel_tol=1e-13)
     check_mass_flow(file)
@@ -171,22 +168,13 @@ def check_result_values(file):
     check_materials(file)
     assert list(file["phases/1"]["phase"]) == [0.25, 0.5, 0.75, 1.0, 1.25]
     assert list(file["surface/2"]["height"])[-1] > list(file["surface/1"]["height"])[-1]
-    # Energies per area and time, and per mass and way; packings with 2 and 2.5, 0.5 and 1.
-    assert case["wear_rate"] == 2.25 and case["specific_wear"] == 0.75
-    assert math.isclose(case["specific_wear_half_width"], math.tan(0.95 * math.pi / 2) * 0.25, rel_tol=1e-12)
-    assert list(file["wear/2"]["rate"]) == [1.5, 3.0] and list(file["wear/1"]["x"]) == [0.01, 0.02]
-    # Packings with 0.25 and 0.75 W/kg, and 2 and 2.5 impacts per kg and s in the second class.
-    assert case["impact_power"] == 0.5 and case["impacts_seen"] == 24 and case["granular_temperature"] == 0.26
-    assert list(file["impact_spectrum"]["rate"]) == [4, 2.25] and list(file["impact_spectrum"]["trough_rate"]) == [0, 1]
-    assert math.isclose(file["impact_spectrum"]["rate_half_width"][1], math.tan(0.95 * math.pi / 2) * 0.25, rel_tol=1e-9)
+    assert case["granular_temperature"] == 0.26
     # Three of five passed, with ((3 - 2) / 4)^2 at an attempt.
     assert np.allclose(file["partition"]["stays"], [0.4, 1]) and list(file["partition"]["probability"]) == [0.0625, 0]
     assert math.isclose(file["partition"]["attempts"][0], math.log(0.4) / math.log(0.9375), rel_tol=1e-12)
     assert case["screening_efficiency"] == 0.6 and math.isclose(case["screening_efficiency_by_model"], 0.0625, rel_tol=1e-12)
     assert np.allclose(file["screening"]["efficiency"], [0, 0.6]) and np.allclose(file["partition_cycles"]["stays"], [1, 0.4, 1, 1])
-    assert list(file["rolling/1"]["grain_torque"]) > list(file["rolling/1"]["phase"])
     packings = file["packings"]
-    assert [text.decode() for text in packings["rolling_problem"]] == ["", "no file"]
     assert list(packings["seed"]) == [49979687, 86028121]
     assert [text.decode() for text in packings["verdict"]] == ["precise", "not-precise"]
     assert [text.decode() for text in packings["deck"]] == ["# deck of packing 1, angle \u03b2\nrun 3000\n", "# deck of packing 2\n"]

@@ -6,11 +6,9 @@
 #include "sample_record.hpp"
 #include "scenario/reader/written_campaign.hpp"
 #include "store/hdf5_memory_file.hpp"
-#include "store/impact_quantities.hpp"
 #include "store/material_quantities.hpp"
 #include "store/schema.hpp"
 #include "store/summary.hpp"
-#include "store/wear_quantities.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,19 +53,7 @@ class ResultFile : public testing::Test {
 void expect_equal_layer(PackingRecord read, PackingRecord written) {
     for (PackingTable const& table : packing_tables())
         EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
-    for (PackingTable const& table : rolling_tables())
-        EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
-    for (PackingTable const& table : wear_tables())
-        EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
-    for (PackingTable const& table : impact_tables())
-        EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
-    EXPECT_EQ(read.impacts.power, written.impacts.power);
-    EXPECT_EQ(read.impacts.brief_share, written.impacts.brief_share);
     EXPECT_EQ(read.granular_temperature, written.granular_temperature);
-    EXPECT_EQ(read.wear.rate, written.wear.rate);
-    EXPECT_EQ(read.wear.per_conveyed, written.wear.per_conveyed);
-    EXPECT_EQ(read.rolling_problem, written.rolling_problem);
-    EXPECT_EQ(read.rolling.coordination_number, written.rolling.coordination_number);
     EXPECT_EQ(read.motion.mode, written.motion.mode);
     EXPECT_EQ(read.motion.period_cycles, written.motion.period_cycles);
     EXPECT_EQ(read.motion.friction_ratio, written.motion.friction_ratio);
@@ -164,21 +150,6 @@ TEST_F(ResultFile, KeepsWhatIsEmptyInfiniteOrMissing) {
     record.estimate.mean.reset();
     write_result(path, record);
     EXPECT_FALSE(read_result(path).estimate.mean || read_result(path).estimate.half_width);
-}
-
-// A case that does not ask for the contacts at the floor has no table of them.
-TEST_F(ResultFile, RollingIsThereWhenAskedFor) {
-    CaseRecord record = sample_record();
-    record.packings[0].rolling = {};
-    write_result(path, record);
-    EXPECT_TRUE(read_result(path).packings[0].rolling.phase.empty());
-    EXPECT_EQ(read_result(path).packings[1].rolling.phase.size(), 5u);
-    record.scenario.measure.rolling = false;
-    record.scenario_toml = to_toml(record.scenario);
-    write_result(path, record);
-    EXPECT_TRUE(read_result(path).packings[1].rolling.phase.empty());
-    Hdf5MemoryFileReader const file(core::read_file(path));
-    EXPECT_THROW(file.table("rolling/1", Rank::array), Hdf5Error);
 }
 
 // The centres of mass of the materials are kept; what is made of them is in tables of the case, over

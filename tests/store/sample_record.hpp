@@ -30,22 +30,7 @@ inline void fill_layer(PackingRecord& packing, double first) {
     }
     packing.profiles.phase = {0, 0, 3, 3};  // two phases of two bins
     packing.profiles.height = {0.001, 0.0025, 0.001, 0.0025};
-    packing.wear = {2.0 + first, 0.5 + first,  {0.01, 0.02},       {0.005, 0.006},
-                    {0, 0},      {1e-5, 1e-5}, {1.5, 2.5 + first}, {}};
-    packing.impacts = {.number = 12.0,
-                       .power = 0.25 + first,
-                       .energy = 1e-6,
-                       .trough_power = 0.5,
-                       .trough_energy = 2e-6,
-                       .brief_share = 0.125,
-                       .from = {1e-6, 1.5848931924611136e-06},
-                       .to = {1.5848931924611136e-06, 2.5118864315095823e-06},
-                       .rate = {4, 2 + first},
-                       .trough_rate = {0, 1}};
     packing.granular_temperature = 0.01 + first;
-    packing.rolling.coordination_number = 2.5 + first;
-    for (PackingTable const& table : rolling_tables())
-        for (int i = 0; i < 5; ++i) table.field(packing).push_back(value += 0.25);
 }
 
 /// A case with two packings of different length whose numbers are easy to tell apart.
@@ -68,13 +53,7 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
                        .restitution = 0.6,
                        .rolling_friction = 0.0};
     scenario.layer = {.length = 0.036, .width = 0.018, .height = {}, .grains = 500};
-    scenario.measure = {.packings = 2,
-                        .confidence = 0.95,
-                        .half_width = 0.02,
-                        .max_cycles = 200,
-                        .rolling = true,
-                        .wear = true,
-                        .impacts = true};
+    scenario.measure = {.packings = 2, .confidence = 0.95, .half_width = 0.02, .max_cycles = 200};
     scenario.output = {.frames_per_cycle = 0};
 
     PackingRecord first{};
@@ -105,7 +84,6 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
     fill_layer(first, 0);
     fill_layer(second, 0.5);
     second.motion.period_cycles = 2;
-    second.rolling_problem = "no file";
     second.seed = 86028121;
     second.wall_time = 11.25;
     second.start_efficiency.reset();

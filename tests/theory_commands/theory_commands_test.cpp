@@ -193,15 +193,6 @@ TEST(TheoryPoint, TakesFrequencyAndStroke) {
     expect_refused("point --throw-number 2 --bulk-density '800 kg/m3'" + rest, "--amplitude");
 }
 
-TEST(TheorySensitivity, PrintsDerivatives) {
-    auto const answer =
-        ask("sensitivity --throw-number 2 --tan-vibration-angle 0.5 --tan-inclination 0 --friction 0.3");
-    ASSERT_EQ(answer.size(), 4u);
-    EXPECT_EQ(answer[0].at("input"), "throw_number");
-    EXPECT_GT(answer[0].at("derivative"), 0);
-    EXPECT_LT(answer[2].at("derivative"), 0);
-}
-
 TEST(TheoryDesign, NamesTheActiveLimit) {
     std::string const base =
         "design --friction 0.3 --frequency '5 Hz to 50 Hz' --vibration-angle '10 deg to 45 deg' ";
@@ -386,8 +377,7 @@ TEST_F(TheoryFiles, BatchRefusesWrongTables) {
 }
 
 TEST(TheoryHelp, EveryCommandTeachesWithAnExample) {
-    for (char const* command :
-         {"point", "map", "trace", "limits", "friction", "sensitivity", "design", "batch"}) {
+    for (char const* command : {"point", "map", "trace", "limits", "friction", "design", "batch"}) {
         Answer const answer = run_program(std::string("theory ") + command + " --help");
         EXPECT_EQ(answer.exit_code, 0) << command;
         EXPECT_NE(answer.text.find(std::string("Example:\n  vibrotrough theory ") + command),

@@ -1,44 +1,13 @@
-"""What `measure.rolling` says about the four layers of phases.csv: contacts at the floor over the cycle, their table, figure and findings."""
-
-import warnings
+"""Contacts at the floor of the four layers of phases.csv over the cycle, from the table that version 0.2 measured, with a key that later
+versions do not have (measure.rolling); its figure and findings."""
 
 import numpy as np
 
-import vibrotrough
-from campaign_program import Row
 from draw import FRICTION, LEAST_TOUCHING, TICKS, Phases
 from figure_style import COLOURS, new_figure, plain_axes
 from validation_case import Floats, ValidationCase
 
 TABLE = "contacts.csv"
-MEASURED = {"measure.rolling": True}
-GRAVITY = 9.81
-DIAMETER = 0.003  # m, mean of base.toml
-VELOCITIES = ("floor_velocity", "floor_spin", "first_spin", "second_velocity")
-FORCES = ("normal_force", "tangential_force", "friction")
-TORQUES = ("floor_torque", "grain_torque")
-PLAIN = ("floor_grains", "floor_contacts", "sliding_share", "contacts_per_floor_grain", "first_fraction", "second_fraction")
-NAMES = PLAIN + VELOCITIES + FORCES + TORQUES
-COLUMNS = ["grains", "throw_number", "phase_deg", *NAMES]
-
-
-def contact_rows(result: vibrotrough.File, row: Row, grains: str) -> list[list[object]]:
-    """Mean curves of one case over its packings: velocities in omega r cos(beta), forces in weights, torques in weights times d / 2. The
-    tangential force is the floor's on the layer, as in phases.csv."""
-    unit = 2 * np.pi * float(row["frequency_hz"]) * float(row["amplitude_m"]) * np.cos(np.radians(float(row["vibration_angle_deg"])))
-    weight = float(np.mean(np.asarray(result["packings/mass"]))) * GRAVITY
-    scale = {**dict.fromkeys(PLAIN, 1.0), **dict.fromkeys(VELOCITIES, unit), **dict.fromkeys(FORCES, weight),
-             **dict.fromkeys(TORQUES, weight * DIAMETER / 2), "tangential_force": -weight}
-
-    def mean(name: str) -> Floats:
-        curves = [np.asarray(result[f"rolling/{packing}/{name}"]) for packing in range(1, int(row["packings"]) + 1)]
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RuntimeWarning)  # where no packing has a value, the mean has none
-            return np.asarray(np.nanmean(np.array(curves), axis=0))
-
-    phase = np.degrees(mean("phase"))
-    curves = [mean(name) / scale[name] for name in NAMES]
-    return [[grains, round(float(row["throw_number"]), 6), f"{phase[i]:.1f}", *(f"{curve[i]:.4f}" for curve in curves)] for i in range(len(phase))]
 
 
 def draw_contacts(run: ValidationCase, curves: Phases) -> None:
@@ -83,7 +52,7 @@ def torque_over_spin(curves: Phases, gamma: float, low: float, high: float) -> f
 
 
 def judge_contacts(run: ValidationCase) -> None:
-    curves = Phases(run.table(TABLE))
+    curves = Phases(run.reference(TABLE))
     for gamma in curves.throw_numbers():
         share = curves.mean("free", gamma, "sliding_share", 275, 300)
         run.finding(f"After the landing most contacts at the floor roll (275 to 300 degrees, Gamma {gamma}): less than half of them slide", share < 0.5,

@@ -31,7 +31,6 @@ THEORIES: dict[str, Mapping[str, float] | None] = {"A0": {}, POINT_MASS: None, "
 
 def measure(run: ValidationCase) -> None:
     """Simulates what is held out; of four layers and of two of the held-out groups the mean curves over the cycle are kept, too."""
-    measure_contacts(run)
     rows, curves = [], []
     table = run.campaign("phases", FEW_PACKINGS, PHASES)
     for (rotation, _), row in zip(itertools.product(*PHASES.values()), table):
@@ -61,16 +60,6 @@ def measured(run: ValidationCase, campaign: str, group: str, row: Row) -> list[o
     modulus = float(result["case/grain_youngs_modulus"]) / 1e6
     return [group, round(float(row["throw_number"]), 6), row["efficiency"], row["efficiency_half_width"], row["packings"], row["outcome"],
             f"{modulus:g}"]
-
-
-def measure_contacts(run: ValidationCase) -> None:
-    """The contacts at the floor of the four layers, measured by the engine."""
-    rows = []
-    table = run.campaign("contacts", {**FEW_PACKINGS, **contacts.MEASURED}, PHASES)
-    for (rotation, _), row in zip(itertools.product(*PHASES.values()), table):
-        result = vibrotrough.open_result(run.runs / "contacts" / "cases" / row["case"] / "result.h5")
-        rows += contacts.contact_rows(result, row, rotation)
-    run.write_table(contacts.TABLE, contacts.COLUMNS, rows)
 
 
 def phase_rows(run: ValidationCase, campaign: str, row: Row, rotation: str) -> list[list[object]]:

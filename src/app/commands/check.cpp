@@ -4,7 +4,6 @@
 #include "core/error.hpp"
 #include "deck/campaign_check.hpp"
 #include "deck/estimates.hpp"
-#include "engine/certificate_cache.hpp"
 #include "scenario/reader/swept_keys.hpp"
 #include "store/quantity.hpp"
 
@@ -23,31 +22,12 @@ using Json = nlohmann::ordered_json;
 
 struct CheckArguments {
     std::string campaign_file;
-    std::string engine;
     bool json = false;
 };
 
-/// The speed of the engine, and where that number comes from.
-struct Speed {
-    double grain_steps_per_second;
-    std::string source;
-};
-
-/// Debian's LIGGGHTS 3.8.0 on one core with 600 to 5000 grains: 5 to 6.5 million were measured.
+/// Grain-steps per second: Debian's LIGGGHTS 3.8.0 on one core with 600 to 5000 grains, 5 to 6.5 million were
+/// measured.
 constexpr double usual_speed = 5e6;
-
-Speed engine_speed(std::string const& program) {
-    try {
-        engine::Engine const engine = engine::find_engine(
-            program.empty() ? std::nullopt : std::optional<std::filesystem::path>(program));
-        auto const certificate = engine::find_certificate(engine::identify(engine));
-        if (certificate && certificate->grain_steps_per_cpu_second > 0)
-            return {certificate->grain_steps_per_cpu_second, "the engine's certificate"};
-    } catch (core::MissingError const&) {
-        if (!program.empty()) throw;
-    }
-    return {usual_speed, "a usual value; 'vibrotrough probe-engine' measures this machine"};
-}
 
 Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -65,8 +45,7 @@ Json describe(deck::Finding const& finding) {
             {"advice", finding.advice}};
 }
 
-Json describe(prepare::PreparedCase const& prepared, int number, std::string const& label,
-              Speed const& speed) {
+Json describe(prepare::PreparedCase const& prepared, int number, std::string const& label) {
     Json findings = Json::array();
     for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
     int const packings = deck::expected_packings(prepared.scenario);
@@ -89,25 +68,24 @@ Json describe(prepare::PreparedCase const& prepared, int number, std::string con
             {"expected_cycles_per_packing", deck::expected_cycles(prepared.scenario)},
             {"expected_grain_steps", work / prepared.step_cost()},
             {"relative_step_cost", prepared.step_cost()},
-            {"expected_core_hours", work / speed.grain_steps_per_second / 3600}};
+            {"expected_core_hours", work / usual_speed / 3600}};
 }
 
 /// Prints case by case: all findings of ten thousand cases at once would need half a gigabyte.
-void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& found, Speed const& speed) {
+void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& found) {
     Json const head{{"campaign", campaign.name}, {"warnings", found.warnings()}, {"errors", found.errors()}};
-    Json const tail{{"grain_steps_per_cpu_second", speed.grain_steps_per_second},
-                    {"speed_source", speed.source},
+    Json const tail{{"grain_steps_per_cpu_second", usual_speed},
                     {"expected_bytes", found.bytes},
                     {"largest_bytes", found.largest_bytes},
                     {"engine_memory_bytes", found.engine_memory},
-                    {"expected_core_hours", found.work / speed.grain_steps_per_second / 3600}};
+                    {"expected_core_hours", found.work / usual_speed / 3600}};
     std::string const begin = head.dump(2), end = tail.dump(2);
     fmt::print("{},\n  \"cases\": [", begin.substr(0, begin.rfind('\n')));
     prepare::CasePreparer preparer;
     int number = 0;
     for (scenario::Scenario const& scenario : campaign.cases) {
         Json const one =
-            describe(preparer.prepare(scenario), ++number, swept_label(scenario, campaign.swept), speed);
+            describe(preparer.prepare(scenario), ++number, swept_label(scenario, campaign.swept));
         fmt::print("{}\n{}", number == 1 ? "" : ",", one.dump(2));
     }
     fmt::print("\n  ],\n{}\n", end.substr(end.find('\n') + 1));
@@ -172,7 +150,7 @@ void print_moduli(deck::CampaignCheck const& found) {
         values, cases);
 }
 
-void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& found, Speed const& speed) {
+void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& found) {
     fmt::print("{:<8} {:<56} {:>10}   {}\n", "", "item (the worst of all cases)", "number", "limit");
     for (deck::CheckedItem const& item : found.items) {
         fmt::print("{:<8} {:<56} {:>10.3g}   {} {:.3g}{}\n", to_string(item.worst.severity), item.worst.item,
@@ -190,8 +168,8 @@ void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& f
                found.cases, found.cases == 1 ? "" : "s", found.packings, found.cycles / found.packings);
     fmt::print("disk: {:.2g} MB, at most {:.2g} MB; memory of one engine: {:.2g} MB\n", found.bytes / 1e6,
                found.largest_bytes / 1e6, found.engine_memory / 1e6);
-    fmt::print("expected cost: {:.2g} core-hours, at {:.2g} grain-steps per CPU second ({})",
-               found.work / speed.grain_steps_per_second / 3600, speed.grain_steps_per_second, speed.source);
+    fmt::print("expected cost: {:.2g} core-hours, at {:.2g} grain-steps per CPU second (a usual value)",
+               found.work / usual_speed / 3600, usual_speed);
     if (found.largest_step_cost > 1.05)
         fmt::print("; in the largest layer a step of a grain costs {:.2g} times as much",
                    found.largest_step_cost);
@@ -201,8 +179,7 @@ void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& f
 int run_check(CheckArguments const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
     deck::CampaignCheck const found = deck::check_campaign(campaign);
-    Speed const speed = engine_speed(options.engine);
-    options.json ? print_json(campaign, found, speed) : print_text(campaign, found, speed);
+    options.json ? print_json(campaign, found) : print_text(campaign, found);
     return found.errors() > 0 ? wrong_input : all_well;
 }
 
@@ -213,12 +190,6 @@ void add_check(CLI::App& program, int& exit_code) {
     CLI::App* const command = program.add_subcommand(
         "check", "Check a campaign before it is simulated, and estimate what it will cost");
     add_campaign_file(*command, options->campaign_file);
-    command
-        ->add_option("--liggghts", options->engine,
-                     "The LIGGGHTS program whose measured speed is used; default: liggghts on the PATH. The "
-                     "check also "
-                     "works without one")
-        ->type_name("PATH");
     command->add_flag("--json", options->json, "Print JSON for scripts, with all findings of all cases");
     command->footer(
         R"(Checks the time step against Rayleigh and Hertz times, the steps per contact and per cycle, the

@@ -23,7 +23,7 @@ the point-mass theory that it solves:
   E.M. Sloot and N.P. Kruyt, Theoretical and experimental study of the transport of granular materials by inclined
   vibratory conveyors, Powder Technology 87 (1996) 203-210
 
-the engine of its simulations, with the version that 'vibrotrough probe-engine' prints:
+the engine of its simulations, with the version that 'vibrotrough --version' prints:
   C. Kloss, C. Goniva, A. Hager, S. Amberger and S. Pirker, Models, algorithms and validation for opensource DEM and
   CFD-DEM, Progress in Computational Fluid Dynamics 12 (2012) 140-152, doi:10.1504/PCFD.2012.047457
 

@@ -9,8 +9,7 @@ class App;
 namespace vibrotrough::app {
 
 /// Help of the flag --accept-failed-probes.
-inline constexpr char const* accept_failed_probes_help =
-    "Run although the engine failed its probes (see 'vibrotrough probe-engine')";
+inline constexpr char const* accept_failed_probes_help = "Run although the engine failed its probes";
 
 /// Adds the required argument CAMPAIGN.toml.
 void add_campaign_file(CLI::App& command, std::string& file);

@@ -121,8 +121,7 @@ std::optional<view::ExportedFrames> export_packing(campaign::PlannedCase const& 
         .colour = colour,
         .parts = drive_parts(planned.prepared->stages),
         .steps_per_cycle = planned.prepared->time.steps_per_cycle,
-        .materials = materials_of(*planned.prepared),
-        .wear = planned.scenario().measure.wear ? packing : fs::path()};
+        .materials = materials_of(*planned.prepared)};
     bool const terminal = ::isatty(STDERR_FILENO) == 1;
     fs::path const target = planned.folder / (number == 1 ? "frames" : fmt::format("frames-{}", number));
     auto exported = view::export_frames(source, target, [&](int written, int all) {

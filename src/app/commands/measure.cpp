@@ -12,7 +12,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace vibrotrough::app {
@@ -70,12 +69,9 @@ Json describe(evaluate::HandPacking const& packing, scenario::MeasurementPlan co
             {"own_efficiency", own.mean},
             {"own_half_width", std::isfinite(own.half_width) ? Json(own.half_width) : Json(nullptr)},
             {"mode", packing.mode.empty() ? Json(nullptr) : Json(packing.mode)},
-            {"deck", name_of(packing.deck)},
-            {"deck_changes", packing.edited},
             {"end", packing.end},
             {"fault", packing.fault ? Json(name_of(*packing.fault)) : Json(nullptr)},
-            {"message", packing.message},
-            {"files", packing.files}};
+            {"message", packing.message}};
 }
 
 void print_json(evaluate::HandRun const& run) {
@@ -107,7 +103,7 @@ void print_json(evaluate::HandRun const& run) {
 }
 
 void print_packing(evaluate::HandPacking const& packing, scenario::MeasurementPlan const& plan, int used) {
-    fmt::print("{}: {} cycles{}\n", core::harmless(packing.folder.string()), packing.cycles,
+    fmt::print("{}: {} cycles{}\n", packing.folder.string(), packing.cycles,
                packing.mode.empty() ? "" : ", mode " + packing.mode);
     measure::PackingEstimate const own = by_itself(packing, plan, used);
     if (std::isfinite(own.half_width)) {
@@ -118,19 +114,16 @@ void print_packing(evaluate::HandPacking const& packing, scenario::MeasurementPl
         fmt::print("  velocity efficiency: {:.4f}, from too few cycles for an interval\n", own.mean);
     }
     fmt::print("  end of the run: {}\n", core::harmless(packing.end));
-    fmt::print("  deck: {}{}{}\n", name_of(packing.deck), packing.edited.empty() ? "" : ": ",
-               core::harmless(fmt::format("{}", fmt::join(packing.edited, ", "))));
     if (packing.fault)
         fmt::print("  a campaign would not count it: {}, {}\n", name_of(*packing.fault),
                    core::harmless(packing.message));
-    fmt::print("  read: {}\n", core::harmless(fmt::format("{}", fmt::join(packing.files, ", "))));
 }
 
 void print_text(evaluate::HandRun const& run) {
     measure::CaseEstimate const& e = run.estimate;
     scenario::MeasurementPlan const& plan = run.prepared.scenario.measure;
     for (evaluate::HandPacking const& one : run.packings) print_packing(one, plan, run.cycles_used);
-    fmt::print("scenario: {}\n", core::harmless(run.scenario_file.string()));
+    fmt::print("scenario: {}\n", run.scenario_file.string());
     if (std::string const open = not_covered(run.prepared.scenario.engine); !open.empty())
         fmt::print("not covered by the engine's certificate: {}\n", open);
     std::string const interval =
@@ -173,10 +166,9 @@ void add_measure(CLI::App& program, int& exit_code) {
         ->type_name("FILE");
     command->add_flag("--json", options->json, "Print JSON for scripts");
     command->footer(
-        R"(Prints the velocity efficiency with its interval as 'run' and 'compare' would find it, the outcome, and
-which files were read. Nothing is written. The deck may have been changed after 'vibrotrough deck' wrote it: the command
-then says in which command it differs first. What is measured is what the engine wrote; what it is divided by (amplitude,
-frequency, angles) is always the scenario's. A run that was stopped, or still goes on, is measured as far as it is.
+        R"(Prints the velocity efficiency with its interval as 'run' and 'compare' would find it, and the outcome.
+Nothing is written. The deck may have been changed after 'vibrotrough deck' wrote it: what is measured is what the engine
+wrote; what it is divided by (amplitude, frequency, angles) is always the scenario's. A run that was stopped, or still goes on, is measured as far as it is.
 
 The interval is that of the campaign: with several packings it allows for their differences, with one it cannot.
 

@@ -143,7 +143,7 @@ void add_observe(CLI::App& program, int& exit_code) {
 A frame has positions, velocities, spins, radii, types and ids of the grains, as arrays of NumPy in SI units. Frames are
 there where the campaign file asks for them (frames_per_cycle and frame_packings under [output]), contacts with their
 forces where it says contacts = true. 'help(vibrotrough.observable)' in Python explains curves, functions of a whole packing
-and files that engine.extra writes; 'vibrotrough observe --examples' prints complete ones.
+and files that your templates write; 'vibrotrough observe --examples' prints complete ones.
 
 The program cuts the start-up that it has cut from the velocity efficiency, and more where MSER asks for it, and makes the mean
 over packings and its interval as those of the efficiency. "drifting" means that the cycles kept still change in one direction,

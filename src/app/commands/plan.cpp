@@ -55,15 +55,7 @@ std::string engine_version(PlanArguments const& options, fs::path const& folder)
 }
 
 std::string_view source_of(campaign::Forecast const& cost) {
-    switch (cost.source) {
-        case campaign::Forecast::SpeedSource::results:
-            return "measured in finished cases";
-        case campaign::Forecast::SpeedSource::certificate:
-            return "from the engine's certificate";
-        case campaign::Forecast::SpeedSource::assumed:
-            break;
-    }
-    return "assumed until the first result";
+    return cost.results > 0 ? "measured in finished cases" : "assumed until the first result";
 }
 
 /// Everything that is printed.
@@ -182,7 +174,7 @@ int run_plan(PlanArguments const& options) {
     campaign::Plan const plan = campaign::make_plan(campaign, folder, engine_version(options, folder));
     campaign.cases = {};  // the plan has its own
     auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder), {}, campaign::Trust::stamp);
-    campaign::Forecast const cost = campaign::forecast(plan, cases);
+    campaign::Forecast const cost = campaign::forecast(cases);
     PlanView view{campaign, plan, cases, cost};
     for (campaign::CaseOverview const& one : cases) view.known += one.result ? 1 : 0;
     options.json ? print_json(view) : print_text(view);

@@ -118,7 +118,7 @@ void add_run(CLI::App& program, int& exit_code) {
         "after submission");
     command->footer(
         R"(The campaign is checked first (see 'vibrotrough check --help'), and each engine binary is
-tested once (see 'vibrotrough probe-engine --help'). Each case is then simulated in several packings. Packings, or
+tested once: impacts of single grains, which show restitution and Coulomb's friction. Each case is then simulated in several packings. Packings, or
 cycles of each, are added until the interval of the case's velocity efficiency is as narrow as measure.half_width asks,
 or measure.max_packings, measure.max_cycles or measure.max_core_time is reached. What a case that is not precise would
 still need is printed when it ends. A summary and the next command are printed at the end.

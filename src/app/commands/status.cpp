@@ -195,7 +195,7 @@ void print_text(StatusView const& view) {
 int run_status(StatusArguments const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder), {}, campaign::Trust::stamp);
-    campaign::Forecast const cost = campaign::forecast(plan, cases);
+    campaign::Forecast const cost = campaign::forecast(cases);
     StatusView const view{plan, cases, cost,
                           options.accounting ? std::optional(find_spent_time(plan, cases)) : std::nullopt};
     options.json ? print_json(view) : print_text(view);

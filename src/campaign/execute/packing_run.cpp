@@ -8,7 +8,6 @@
 #include "engine/binary_watch.hpp"
 #include "engine/run_report.hpp"
 #include "engine/sole_writer.hpp"
-#include "evaluate/impacts.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -228,8 +227,6 @@ std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
 
 /// Evaluates what the engine wrote, and marks the packing as finished.
 PackingEnd PackingRun::conclude(long last_step) {
-    // What the case's result needs must be there now; later it would be too late to run again.
-    evaluate::keep_impacts(*planned_.prepared, folder_);
     auto const files = evaluate::read_packing_files(folder_);
     auto evaluation = evaluate::evaluate_outputs(*planned_.prepared, packing_.number, files, last_step);
     if (auto const* const fault = std::get_if<evaluate::UnusableOutputs>(&evaluation))
@@ -244,7 +241,6 @@ PackingEnd PackingRun::conclude(long last_step) {
                                          engine_certificate_,
                                          earlier_core_time_ + core_time_,
                                          packing_.start_efficiency,
-                                         files.rolling_sha256,
                                          core::sha256_hex(deck)};
     evaluated_ = {marker, std::get<store::PackingRecord>(std::move(evaluation))};
     evaluate::add_run(evaluated_->record, marker);

@@ -7,7 +7,7 @@
 #include "campaign/state/file_lock.hpp"
 #include "core/error.hpp"
 #include "engine/binary_watch.hpp"
-#include "engine/certificate_cache.hpp"
+#include "engine/certificate.hpp"
 #include "engine/stop_signals.hpp"
 
 #include <algorithm>

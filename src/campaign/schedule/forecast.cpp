@@ -1,17 +1,14 @@
 #include "campaign/schedule/forecast.hpp"
 
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
 #include "deck/estimates.hpp"
-#include "engine/certificate.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace vibrotrough::campaign {
 namespace {
 
+/// Grain-steps per second and core: LIGGGHTS 3.8.0 with 600 to 5000 grains.
 constexpr double assumed_speed = 5e6;
 /// Scatter, as a natural logarithm, of a case's cost about the forecast, before there are results.
 constexpr double unknown_scatter = 0.55;
@@ -60,18 +57,6 @@ Learned learn(std::vector<CaseOverview> const& cases) {
     return learned;
 }
 
-std::optional<double> certified_speed(Plan const& plan) {
-    try {
-        auto const certificate =
-            engine::parse_certificate(core::read_file(plan.folder / "certificate.json", core::largest_note));
-        if (certificate && certificate->grain_steps_per_cpu_second > 0)
-            return certificate->grain_steps_per_cpu_second;
-    } catch (core::Error const&) {
-        // None yet.
-    }
-    return {};
-}
-
 double scatter_of(std::vector<double> const& ratios) {
     if (ratios.size() < 2) return unknown_scatter;
     double sum = 0, squares = 0;
@@ -91,17 +76,11 @@ int packings_of(CaseOverview const& one, Learned const& learned) {
 
 }  // namespace
 
-Forecast forecast(Plan const& plan, std::vector<CaseOverview> const& cases) {
+Forecast forecast(std::vector<CaseOverview> const& cases) {
     Learned const learned = learn(cases);
     Forecast result;
     result.results = static_cast<int>(learned.ratios.size());
-    auto const certified = certified_speed(plan);
-    result.speed = learned.speed > 0 ? learned.speed : certified.value_or(assumed_speed);
-    if (learned.speed > 0) {
-        result.source = Forecast::SpeedSource::results;
-    } else if (certified) {
-        result.source = Forecast::SpeedSource::certificate;
-    }
+    result.speed = learned.speed > 0 ? learned.speed : assumed_speed;
     int missing_cases = 0;
     for (CaseOverview const& one : cases) {
         result.packings.push_back(packings_of(one, learned));

@@ -8,16 +8,9 @@ namespace vibrotrough::campaign {
 
 /// What a campaign would still cost.
 struct Forecast {
-    /// Where the speed of the engine was taken from.
-    enum class SpeedSource {
-        assumed,      ///< 5e6 grain-steps per second and core (LIGGGHTS 3.8.0, 600 to 5000 grains)
-        certificate,  ///< measured when the engine was probed
-        results,      ///< of the campaign's own cases
-    };
-    double speed = 0;                           ///< grain-steps of a small layer per second and core
-    SpeedSource source = SpeedSource::assumed;  ///< where it was taken from
-    int results = 0;                            ///< cases that the forecast rests on
-    double core_time = 0;                       ///< s, of all packings that are missing
+    double speed = 0;        ///< grain-steps of a small layer per second and core
+    int results = 0;         ///< cases that the forecast rests on, with their speed
+    double core_time = 0;    ///< s, of all packings that are missing
     double uncertainty = 1;  ///< the true core time is probably within core_time / u and core_time * u
     std::vector<double>
         cases;  ///< s of a core per case, in the order of the plan; 0 where nothing is missing
@@ -29,11 +22,11 @@ struct Forecast {
 /// A case needs so many packings that its interval becomes as narrow as measure.half_width asks
 /// (deck::expected_packings, the same as in `check`). The deviation of one packing is the median of the
 /// results that are there, and each packing takes the cycles that those of the results took; without results
-/// it is what deck::Experience says. The core time follows from the speed of the results, else of the
-/// engine's certificate.
+/// it is what deck::Experience says. The core time follows from the speed of the results, else from a usual
+/// one.
 ///
 /// The uncertainty is twice the scatter of what the results took about what the same rule would have said of
 /// them, in logarithms: for the mean of the missing cases, and for what is learned from the results.
-Forecast forecast(Plan const& plan, std::vector<CaseOverview> const& cases);
+Forecast forecast(std::vector<CaseOverview> const& cases);
 
 }  // namespace vibrotrough::campaign

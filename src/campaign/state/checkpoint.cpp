@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using core::note::Json;
 
 /// The tables of a run whose rows begin with their step.
-constexpr char const* tables[] = {"cycles.csv", "phases.csv", "rolling.csv", "dump/frames.csv"};
+constexpr char const* tables[] = {"cycles.csv", "phases.csv", "dump/frames.csv"};
 
 std::optional<long> leading_number(std::string_view line) {
     long number = 0;

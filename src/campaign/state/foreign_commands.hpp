@@ -7,8 +7,8 @@
 
 namespace vibrotrough::campaign {
 
-/// What a person allows of that which comes with a campaign's files and can start any program: the lines of
-/// engine.extra and the templates of the decks.
+/// What a person allows of that which comes with a campaign's files and can start any program: the
+/// templates of the decks.
 struct ForeignCommands {
     bool allowed = false;  ///< all of them
     /// Templates that the person has named on the command line, which are allowed without being asked for.
@@ -21,8 +21,7 @@ struct ForeignCommands {
 /// The gate to the engine: both roads to it, run_campaign() and work(), go through it with every case that
 /// they may simulate, wherever it was read.
 /// @param source  names the campaign in errors
-/// @throws core::InputError that shows the commands, unless they are allowed, and whether or not they are
-/// when one names a file outside of the deck's folder
+/// @throws core::InputError unless they are allowed
 void check_foreign_commands(std::string const& source, scenario::Scenario const& scenario,
                             ForeignCommands const& leave);
 

@@ -15,7 +15,7 @@
 namespace vibrotrough::campaign {
 
 // The notes in a campaign's folder, from their text alone. All functions throw core::note::Fault when the
-// text is not such a note; texts for messages are harmless, and numbers are in the range that they can have.
+// text is not such a note, and numbers are in the range that they can have.
 
 /// Why a case has no result.
 struct Failure {

@@ -174,7 +174,6 @@ NumericsStudy plan_study(PlannedCase const& planned, std::optional<double> half_
     scenario::Scenario scenario = planned.scenario();
     require_steady_drive(scenario, "convergence");
     scenario.output.frames_per_cycle = 0;
-    scenario.measure.rolling = scenario.measure.wear = false;
     if (half_width) scenario.measure.half_width = *half_width;
     NumericsStudy study{planned.id, prepare::prepare_case(as_read_back(scenario)), {}};
     study.settings = vary_numerics(study.standard);

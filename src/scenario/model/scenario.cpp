@@ -104,7 +104,6 @@ std::vector<NamedFile> named_files(Scenario const& scenario) {
         if (stage.waveform &&
             std::ranges::find(files, stage.waveform->file.name, &NamedFile::name) == files.end())
             files.push_back(stage.waveform->file);
-    if (scenario.engine.extra) files.push_back(scenario.engine.extra->file);
     if (scenario.engine.templates) {
         auto const& templates = scenario.engine.templates->files;
         files.insert(files.end(), templates.begin(), templates.end());

@@ -106,9 +106,6 @@ struct MeasurementPlan {
     int max_packings = 24;  ///< largest number of packings of a case
     std::optional<double> max_core_time{};  ///< s, largest core time that a case may take
     std::optional<int> min_cycles{};        ///< least number of cycles of a packing
-    bool rolling = false;                   ///< whether the contacts at the floor are measured, too
-    bool wear = false;                      ///< whether the wear of the trough is measured, too
-    bool impacts = false;                   ///< whether the energies of impacts are measured, too
 };
 
 /// What a run writes in addition to its measurements.
@@ -183,7 +180,7 @@ double mean_layer_depth(Scenario const& scenario);
 /// the lowest point of a cross-section, as a mean along it.
 double layer_height(Scenario const& scenario);
 
-/// The files that the scenario names: shape, waveform, extra lines and templates, if it has
+/// The files that the scenario names: shape, waveform and templates, if it has
 /// them.
 std::vector<NamedFile> named_files(Scenario const& scenario);
 

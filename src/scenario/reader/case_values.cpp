@@ -58,34 +58,6 @@ void check_block_contact(Scenario const& scenario, GivenKeys const& given) {
                    "remove cohesion or block");
 }
 
-/// The engine gives the force of a wall on each sphere, without saying of which wall, and each sphere of a
-/// clump has its own contacts but shares the clump's spin.
-void check_rolling(Scenario const& scenario, GivenKeys const& given) {
-    bool const is_layer = scenario.layer.block == Block::none && !is_clump(scenario.grains);
-    if (!scenario.measure.rolling || (is_layer && !scenario.trough.side_wall_friction)) return;
-    given.fail(
-        "measure.rolling",
-        fmt::format("the contacts at the floor are measured only in layers of spheres, and {} is given",
-                    is_clump(scenario.grains)             ? "grains.shape"
-                    : scenario.layer.block != Block::none ? "layer.block"
-                                                          : "trough.side_wall_friction"),
-        "leave one of the two out");
-}
-
-/// The energy of an impact follows from the overlaps of two spheres and the law of their contact.
-void check_impacts(Scenario const& scenario, GivenKeys const& given) {
-    if (!scenario.measure.impacts) return;
-    char const* const other = is_clump(scenario.grains)             ? "grains.shape"
-                              : scenario.layer.block != Block::none ? "layer.block"
-                              : scenario.engine.cohesion > 0        ? "engine.cohesion"
-                                                                    : nullptr;
-    if (other == nullptr) return;
-    given.fail("measure.impacts",
-               fmt::format("impacts are measured only in layers of spheres without cohesion, and {} is given",
-                           other),
-               "leave one of the two out");
-}
-
 void check_frames(Scenario const& scenario, GivenKeys const& given) {
     OutputPlan const& plan = scenario.output;
     bool const lists = given.has("output.frame_packings");
@@ -138,8 +110,6 @@ Scenario make_scenario(CaseValues const& values, std::string const& file, FileSo
     complete_screen(scenario, given);
     complete_layer(scenario, given);
     if (scenario.layer.block != Block::none) complete_block(scenario, given);
-    check_rolling(scenario, given);
-    check_impacts(scenario, given);
     check_frames(scenario, given);
     return scenario;
 }

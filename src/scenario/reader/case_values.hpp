@@ -55,7 +55,6 @@ struct FilesRead {
     std::map<std::string, std::shared_ptr<ShapeFile const>> shapes;                      ///< of clumps
     std::map<std::string, std::shared_ptr<Waveform const>> waveforms;                    ///< of the trough
     std::map<std::vector<std::string>, std::shared_ptr<TroughMesh const>> meshes;        ///< of the trough
-    std::map<std::string, std::shared_ptr<ExtraLines const>> extras;                     ///< for the engine
     std::map<std::vector<std::string>, std::shared_ptr<DeckTemplates const>> templates;  ///< of decks
 };
 

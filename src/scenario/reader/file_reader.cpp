@@ -4,7 +4,6 @@
 #include "core/nearest.hpp"
 #include "core/quantity.hpp"
 #include "scenario/reader/design_reader.hpp"
-#include "scenario/reader/other_words.hpp"
 #include "scenario/reader/run_section.hpp"
 #include "scenario/reader/swept_keys.hpp"
 #include "scenario/reader/unreadable.hpp"
@@ -139,9 +138,7 @@ class CampaignFileReader {
                  "move it below its section's heading");
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
-            std::string_view const meant = section_in_other_words(name.str());
-            // A section's name that is written almost right.
-            std::string_view const near = meant.empty() ? nearest_section(name.str()) : meant;
+            std::string_view const near = nearest_section(name.str());
             if (!near.empty())
                 fail(where, name.str(), "unknown section", fmt::format("did you mean [{}]?", near));
             fail(where, name.str(), "unknown section",

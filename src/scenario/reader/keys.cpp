@@ -2,7 +2,6 @@
 
 #include "core/nearest.hpp"
 #include "scenario/reader/key_fields.hpp"
-#include "scenario/reader/other_words.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -125,7 +124,6 @@ std::string key_reference() {
 
 std::string_view nearest_key(std::string_view path) {
     if (path.size() > 64) return {};
-    if (auto const meant = key_in_other_words(path); !meant.empty()) return meant;
     auto const distance = [&](Key const& key) { return core::edit_distance(path, key.path); };
     auto const nearest = std::ranges::min_element(table(), {}, distance);
     return distance(*nearest) <= 4 ? nearest->path : std::string_view{};

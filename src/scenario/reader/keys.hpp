@@ -136,8 +136,8 @@ std::span<Key const> run_keys();
 /// The key of all_keys() with this path, or nullptr.
 Key const* find_key(std::string_view path);
 
-/// The path of all_keys() that is meant by a path that is none: by its meaning (key_in_other_words), else the
-/// most similar one, or an empty text when none is similar (more than four letters to change).
+/// The path of all_keys() that is most similar to a path that is none; an empty text when none is similar
+/// (more than four letters to change).
 std::string_view nearest_key(std::string_view path);
 
 /// The page keys.md: all keys as a Markdown table, those of [run] last.

@@ -108,9 +108,6 @@ void check_mesh(Scenario const& scenario, GivenKeys const& given) {
     if (scenario.layer.block != Block::none)
         given.fail("layer.block", "a block needs the flat floor, and trough.mesh is given",
                    "remove one of the two");
-    if (scenario.measure.rolling)
-        given.fail("measure.rolling", "the contacts at the floor are measured only on the flat floor",
-                   "remove it or trough.mesh");
 }
 
 /// The key by which the height of the layer was given.

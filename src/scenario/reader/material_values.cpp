@@ -82,11 +82,6 @@ void check_solids(Scenario const& s, GivenKeys const& given) {
     if (own.size() == s.trough.mesh->parts.size())
         given.fail(place, "every solid of the mesh has coefficients of its own",
                    "leave one of them to trough.friction and trough.restitution");
-    for (auto const& [key, is_asked] :
-         {std::pair("measure.wear", s.measure.wear), std::pair("measure.impacts", s.measure.impacts)})
-        if (is_asked)
-            given.fail(key, "is measured only where all of the mesh has the same coefficients",
-                       "remove it, or the [[pairs]] of the mesh's solids");
 }
 
 void check_pair(Scenario const& s, std::size_t index, GivenKeys const& given) {

@@ -29,13 +29,6 @@ bool lists_frame_packings(Scenario const& s) {
     return s.output.frames_per_cycle != 0 && s.output.frame_packings != std::vector<int>{1};
 }
 
-void set_extra(EnginePlan& plan, GivenValue const& v) {
-    if (v.word() == "none") return;
-    plan.extra = read_once(v.files_read().extras, read_extra_lines, v,
-                           "write one command of LIGGGHTS per line below a line [after-contact], "
-                           "[before-first-cycle] or [at-cycle-end]");
-}
-
 void set_templates(Scenario& s, GivenValue const& v) {
     std::vector<std::string> names = v.words();
     std::ranges::sort(names);
@@ -91,18 +84,6 @@ constexpr std::array rows_of_plans{
     Key{"measure.max_core_time", quantity, "s", 1, 1e12, "at least 1 s", "", optional, "\"2 hours\"",
         "largest core time that one case may take: when more would be needed, it ends as not-precise",
         field<&Scenario::measure, &MeasurementPlan::max_core_time>},
-    Key{"measure.rolling", truth, "", 0, 1, "true or false", "", 0.0, "true",
-        "also measure the contacts at the floor within the cycle: how the lowest grains spin and slide, with "
-        "which forces and torques; for layers of spheres without side walls",
-        field<&Scenario::measure, &MeasurementPlan::rolling>.unless_default()},
-    Key{"measure.wear", truth, "", 0, 1, "true or false", "", 0.0, "true",
-        "also measure the wear of the trough by Finnie's law of erosion: where it is worn, and how much per "
-        "tonne conveyed; without the side walls of side_wall_friction",
-        field<&Scenario::measure, &MeasurementPlan::wear>.unless_default()},
-    Key{"measure.impacts", truth, "", 0, 1, "true or false", "", 0.0, "true",
-        "also measure with which energies grains hit each other and the trough, over two cycles of each "
-        "packing; for layers of spheres without cohesion",
-        field<&Scenario::measure, &MeasurementPlan::impacts>.unless_default()},
 
     Key{"output.frames_per_cycle", integer, "", 0, 1000, "0 to 1000", "", 0.0, "0",
         "frames per cycle that the first packing writes for ParaView; 0 writes none",
@@ -134,21 +115,11 @@ constexpr std::array rows_of_plans{
         "energy density of the cohesion model sjkr: grains and trough attract each other with this pressure "
         "times the area of their contact",
         field<&Scenario::engine, &EnginePlan::cohesion>.unless_default()},
-    Key{"engine.extra", file, "", 0, 0, "none or a .liggghts file in the same folder", "", optional,
-        "\"rotor.liggghts\"",
-        "commands of LIGGGHTS that the decks run as well; files of fix print and fix ave/time are opened "
-        "anew at "
-        "each checkpoint, so that their names need ${now}; commands can do anything, so that 'run' shows "
-        "them and "
-        "refuses unless --allow-extra is given",
-        KeyAccess{[](Scenario const& s) {
-                      return content_of(std::string(s.engine.extra ? s.engine.extra->file.name : "none"));
-                  },
-                  [](Scenario& s, GivenValue const& v) { set_extra(s.engine, v); }}
-            .unless_default()},
     Key{"engine.templates", texts, "", 0, 0, "1 to 30 names of .mustache files in the same folder", "",
         optional, "[\"contact.mustache\"]",
-        "templates of the decks that replace those of input_templates; like extra they need --allow-extra. "
+        "templates of the decks that replace those of input_templates; their commands can do anything, so "
+        "that "
+        "'run' refuses unless --allow-extra is given. "
         "'run --templates DIR' takes them from a folder instead",
         KeyAccess{templates_of, set_templates}},
 };

@@ -23,10 +23,6 @@ void check_parts(Scenario const& s, GivenKeys const& given) {
     refuse(!s.materials.empty(), "materials.1.name", "the grains on a screen are of one material");
     refuse(!s.stages.empty(), given.has("stages.1.time") ? "stages.1.time" : "stages.1.cycles",
            "the drive of a screen has no stages");
-    refuse(s.measure.rolling, "measure.rolling",
-           "the contacts at the floor are measured on closed floors only");
-    refuse(s.measure.wear, "measure.wear", "the wear is measured on closed floors only");
-    refuse(s.measure.impacts, "measure.impacts", "impacts are measured on closed floors only");
     refuse(s.output.contacts, "output.contacts", "contacts are not written of grains on a screen");
 }
 

@@ -124,13 +124,6 @@ class StageChecks {
 /// What the stages themselves decide must not be given.
 void check_plan(GivenKeys const& given) {
     refuse_length(given, "stages");
-    if (given.has("measure.rolling"))
-        given.fail("measure.rolling", "what happens within a cycle is not measured in stages",
-                   "remove it, or the stages");
-    if (given.has("measure.wear"))
-        given.fail("measure.wear", "the wear is not measured in stages", "remove it, or the stages");
-    if (given.has("measure.impacts"))
-        given.fail("measure.impacts", "impacts are not measured in stages", "remove it, or the stages");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace vibrotrough::scenario {
 
 /// The case as a campaign file of its own, in SI units with as many digits as needed: the same scenario
 /// always gives the same text, and reading the text gives the same scenario. The text only names the files of
-/// shape, waveform, extra lines and templates; named_files() returns them.
+/// shape, waveform and templates; named_files() returns them.
 std::string to_toml(Scenario const& scenario);
 
 /// What a case is, as text: to_toml() in canonical form, whatever numbers of the drive the user gave, with the

@@ -140,8 +140,6 @@ class PrecisionBench(unittest.TestCase):
         self.folder = Path(temporary.name)
         every = [{"trough.throw_number": gamma, "trough.tan_vibration_angle": tangent} for gamma in THROW_NUMBERS for tangent in TANGENTS]
         points, self.numerics = self.with_numerics(every[:: max(1, len(every) // CASES)][:CASES])
-        # The engine is probed beforehand: it is probed once for all campaigns.
-        subprocess.run([PROGRAM, "probe-engine"], capture_output=True)
         self.settling = 0.0
         user = self.careful_user(points)
         spent = sum(cost for _, _, cost in user)
