@@ -120,8 +120,7 @@ py::dict solve_columns(std::map<std::string, Column> const& columns, std::size_t
 }
 
 ConveyorMotion solve_one(Inputs const& inputs) {
-    ConveyorMotion motion =
-        inputs.plastic() ? solve_plastic(inputs.conveyor(), Detail::pieces) : solve(inputs.conveyor());
+    ConveyorMotion motion = solve(inputs.conveyor());
     if (motion.pieces.empty())
         throw std::invalid_argument("the motion has no period: " +
                                     std::string(to_string(motion.motion.outcome)));

@@ -262,7 +262,7 @@ std::vector<Frame> frames(Settings const& settings, bool rolling, int count) {
             add(s.t, s.kind, travel, s.gap, s.normal_force, s.tangential_force);
         }
     } else {
-        auto const motion = theory::solve_plastic(settings.inputs().conveyor(), theory::Detail::pieces);
+        auto const motion = theory::solve(settings.inputs().conveyor());
         if (motion.motion.outcome != theory::Outcome::periodic)
             throw std::invalid_argument(theory::to_string(motion.motion.outcome));
         auto const samples = theory::trace(motion, count);

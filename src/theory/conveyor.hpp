@@ -108,14 +108,4 @@ struct ConveyorMotion {
 /// @throws PhaseError when a phase cannot be solved
 ConveyorMotion solve(Conveyor const& conveyor);
 
-/// What is wanted of a motion.
-enum class Detail {
-    motion,  ///< efficiency, mode, phases and period
-    pieces,  ///< also the pieces and impacts, from which forces and energies follow
-};
-
-/// The same for Sloot & Kruyt's plastic point mass, for which solve(PointMass) finds periods of any length.
-/// @param conveyor  nothing beyond the plastic point mass is set
-ConveyorMotion solve_plastic(Conveyor const& conveyor, Detail detail);
-
 }  // namespace vibrotrough::theory

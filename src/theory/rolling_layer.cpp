@@ -2,7 +2,6 @@
 
 #include "theory/detail/common/first_zero.hpp"
 #include "theory/detail/common/input_check.hpp"
-#include "theory/detail/plastic/flight.hpp"
 #include "theory/detail/rolling/search.hpp"
 #include "theory/detail/rolling/walk.hpp"
 

@@ -50,7 +50,7 @@ class RandomInputs {
 
 /// The answer of `theory point`.
 ConveyorMotion point(Inputs const& in) {
-    return in.plastic() ? solve_plastic(in.conveyor(), Detail::motion) : solve(in.conveyor());
+    return solve(in.conveyor());
 }
 
 /// Whether two numbers are the same, or both are none.

@@ -60,7 +60,7 @@ RC_GTEST_PROP(EnergyBalance, HoldsForThePlasticMassWithFlightsOfAnyLength, ()) {
     Conveyor conveyor{};
     conveyor.point = {std::pow(10, between(-1, 4)), std::pow(10, between(-2, 1)), between(-0.9, 0.9) * mu,
                       mu};
-    ConveyorMotion const motion = solve_plastic(conveyor, Detail::pieces);
+    ConveyorMotion const motion = solve(conveyor);
     RC_PRE(motion.motion.converged);
     EnergyBalance const energy = energy_balance(motion);
     PointMass const& p = conveyor.point;
@@ -85,7 +85,7 @@ RC_GTEST_PROP(EnergyBalance, HoldsForThePlasticMassWithFlightsOfAnyLength, ()) {
 TEST(EnergyBalance, DoesNotEndWithinAFlight) {
     Conveyor conveyor{};
     conveyor.point = {1e4, 0.25, 0.05, 0.3};
-    ConveyorMotion const motion = solve_plastic(conveyor, Detail::pieces);
+    ConveyorMotion const motion = solve(conveyor);
     EXPECT_EQ(motion.half_width, 0) << "the motion is periodic";
     EXPECT_GT(motion.motion.flight_number, 3000);
     EngineerQuantities const q = engineer_quantities(motion, {.amplitude = 4.575});
@@ -211,7 +211,7 @@ TEST(Quantities, TheWeightDoesNotVanishWithTheVibrationAngle) {
     for (double const tangent : {1e-3, 1e-160, 1e-300}) {
         Conveyor conveyor{};
         conveyor.point = {4 * tangent, tangent, 0, 0.3};  // K = 4
-        EngineerQuantities const q = engineer_quantities(solve_plastic(conveyor, Detail::pieces),
+        EngineerQuantities const q = engineer_quantities(solve(conveyor),
                                                          {.amplitude = 0.006, .gravity = 9.81});
         // At rest N = g + omega^2 r sin(beta), of which K = 4 is the factor to g. It was 6e-4 too low where
         // the largest force lay between two samples.
@@ -244,7 +244,7 @@ RC_GTEST_PROP(PlasticQuantities, AreThoseOfTheGeneralSolver, ()) {
     RC_PRE(motion.converged && motion.period_cycles == 1);
     Conveyor conveyor{};
     conveyor.point = point;
-    EngineerQuantities const expected = engineer_quantities(solve_plastic(conveyor, Detail::pieces), machine);
+    EngineerQuantities const expected = engineer_quantities(solve(conveyor), machine);
     PlasticQuantities const found = plastic_quantities(motion, point, machine);
     double const speed = expected.angular_frequency * machine.amplitude;
     RC_ASSERT(std::abs(found.impact_speed - expected.impact_speed) <= 1e-6 * speed);

@@ -2,7 +2,6 @@
 
 #include "conveyor_walk.hpp"
 #include "theory/detail/common/fixed_point.hpp"
-#include "theory/detail/common/weak_forces.hpp"
 #include "theory/detail/conveyor/check.hpp"
 
 #include <algorithm>
@@ -353,7 +352,7 @@ std::optional<ConveyorMotion> Solver::with_period() {
 
 ConveyorMotion walked_motion(Conveyor const& conveyor) {
     try {
-        Solver solver(detail::with_noticeable_forces(conveyor));
+        Solver solver(conveyor);
         auto known = solver.with_period();
         return known ? std::move(*known) : solver.averaged();
     } catch (PhaseError const& error) {

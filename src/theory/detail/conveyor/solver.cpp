@@ -1,7 +1,6 @@
 #include "theory/detail/conveyor/solver.hpp"
 
 #include "theory/detail/common/fixed_point.hpp"
-#include "theory/detail/common/weak_forces.hpp"
 #include "theory/detail/conveyor/check.hpp"
 
 #include <algorithm>
@@ -297,7 +296,7 @@ Efficiency ConveyorSolver::operator()(Conveyor const& conveyor, MotionStart cons
     mean_ = mean;
     after_zero_ = after_zero;
     try {
-        return solve(with_noticeable_forces(conveyor));
+        return solve(conveyor);
     } catch (PhaseError const& error) {
         throw PhaseError(std::string(error.what()) + " (" + inputs_text(conveyor) + ")");
     }

@@ -1,7 +1,7 @@
 #include "theory/detail/rolling/normal.hpp"
 
 #include "theory/detail/common/first_zero.hpp"
-#include "theory/detail/plastic/flight.hpp"
+#include "theory/detail/conveyor/normal_orbit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -157,28 +157,36 @@ RollingNormal soft(double throw_number, RollingLaw const& law) {
     return normal;
 }
 
+/// The rigid landing is that of the point mass.
 RollingNormal hard(double throw_number) {
     RollingNormal normal;
     ContactForce const force{.constant = 1 / throw_number, .sine = -1};
-    if (throw_number <= 1) {
+    ConveyorWaves waves;
+    Conveyor conveyor{};
+    conveyor.point = {throw_number, 1, 0, 1};
+    waves.set(conveyor);
+    NormalOrbit orbit;
+    find_normal_orbit(waves, {}, orbit);
+    normal.cycles = orbit.cycles;
+    if (orbit.in_contact)
         normal.pieces.push_back(
             {.start = 0, .end = two_pi, .contact = true, .gap = 0, .gap_rate = 0, .force = force});
-        return normal;
-    }
-    NormalMotion motion;
-    find_normal_motion(throw_number, motion);
-    normal.cycles = motion.cycles;
-    for (std::size_t i = 0; i < motion.flights.size(); ++i) {
-        Flight const& flight = motion.flights[i];
-        double const next = i + 1 < motion.flights.size() ? motion.flights[i + 1].start.t : motion.end.t;
-        normal.pieces.push_back(
-            {.start = flight.start.t, .end = flight.end.t, .contact = false, .gap = 0, .gap_rate = 0});
-        normal.pieces.push_back({.start = flight.end.t,
-                                 .end = std::max(next, flight.end.t),
+    double shift = 0;
+    for (std::size_t i = orbit.first; i < orbit.hops.size(); ++i) {
+        Hop const& hop = orbit.hops[i];
+        if (!normal.pieces.empty())
+            shift = two_pi * std::round((normal.pieces.back().end - hop.start.t) / two_pi);
+        normal.pieces.push_back({.start = hop.start.t + shift,
+                                 .end = hop.end.t + shift,
+                                 .contact = false,
+                                 .gap = 0,
+                                 .gap_rate = 0});
+        normal.pieces.push_back({.start = hop.end.t + shift,
+                                 .end = std::max(hop.leave.t, hop.end.t) + shift,
                                  .contact = true,
                                  .gap = 0,
                                  .gap_rate = 0,
-                                 .impulse = flight.approach,
+                                 .impulse = hop.approach,
                                  .force = force});
     }
     return normal;
