@@ -22,7 +22,7 @@ constexpr double settled = 1e-11;  // change of the velocity from period to peri
 constexpr double least_linear =
     1e-6;                           // error of the velocity up to which Newton's last step is taken as exact
 constexpr double idle = 1e-9;       // share of gravity's pull by which friction may miss it as if it held it
-constexpr int longest_period = 64;  // cycles, unless flights are so long that the orbit is stretched
+constexpr int longest_period = 64;  // cycles, by the rule of Table 1
 constexpr int most_periods = 3000;  // from rest
 constexpr double repeat_match = 1e-9;  // of displacement and impact energy per cycle, period to period
 
@@ -264,7 +264,7 @@ Efficiency ConveyorSolver::solve(Conveyor const& c) {
         if (orbit_.joined != never) return {0, 0, 0, Outcome::unsettled};
     }
     if (auto const known = without_motion(c)) return *known;
-    bool const has_period = orbit_.cycles > 0 && (orbit_.cycles <= longest_period || orbit_.stretch > 1);
+    bool const has_period = orbit_.cycles > 0;
     bool const by_rule = waves_.starts_by_rule(), one_friction = waves_.one_friction() && !by_rule;
     leaps_.resize(orbit_.hops.size());
     if (!has_period) {
