@@ -20,15 +20,6 @@ struct Instant {
     static Instant at(double t) { return {t, std::sin(t), std::cos(t)}; }
 };
 
-/// A Halley step of this size leaves an error of its cube, which is below rounding.
-inline constexpr double root_step = 3e-6;
-
-/// Sine and cosine a small step later, by Taylor expansion: exact to rounding for |d| <= root_step.
-inline Instant shifted(Instant const& a, double d) {
-    double const half = d * d / 2;
-    return {a.t + d, a.sine * (1 - half) + a.cosine * d, a.cosine * (1 - half) - a.sine * d};
-}
-
 /// The tangential velocity and its derivative with respect to the velocity at the start of the period.
 struct Tangent {
     double v;

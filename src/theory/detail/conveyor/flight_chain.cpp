@@ -1,5 +1,6 @@
 #include "theory/detail/conveyor/flight_chain.hpp"
 
+#include "theory/detail/common/root.hpp"
 #include "theory/errors.hpp"
 
 #include <algorithm>
@@ -47,8 +48,9 @@ struct FlightChain::Ballistic {
         while (low > 1 && !is_above(low)) low /= 2;
         if (!is_above(low)) return start.t;
         while (is_above(high)) high *= 2;
-        while (high - low > 1) (is_above((low + high) / 2) ? low : high) = (low + high) / 2;
-        return start.t + low;
+        auto const is_below = [&](double h) { return is_above(h) ? -1.0 : 1.0; };
+        auto const close = [](double a, double b) { return b - a < 1; };
+        return start.t + boost::math::tools::bisect(is_below, low, high, close).first;
     }
 };
 
@@ -105,51 +107,32 @@ bool FlightChain::short_flight(Start const& start, Hop& hop) const {
     return true;
 }
 
-/// The gap falls from a positive to a zero or negative value between low and high and has one zero there:
-/// Halley's method within the bracket.
+/// The flight whose gap falls to zero between low and high.
 Hop FlightChain::landing(Start const& start, Ballistic const& path, double low, double high) const {
     Wave const& normal = waves_.normal_force();
-    double t = high;
-    if (start.rate > 0) {
-        double const guess = start.at.t + 2 * start.rate / normal(start.at);
-        if (guess > low && guess < high) t = guess;
-    }
-    for (int i = 0; i < 200; ++i) {
-        Instant const here = Instant::at(t);
+    Instant here{};
+    auto const derivatives = [&](double t) {
+        here = Instant::at(t);
         Decayed const d = path.decayed(t);
-        double const gap = path.gap(here, d), rate = path.rate(here, d);
-        double const bend = -(normal(here) + waves_.drag() * rate) / rate;
-        double const newton = -gap / rate, step = newton / (1 + newton * bend / 2);
-        (gap > 0 ? low : high) = t;
-        double next = t + step;
-        // Beside the lowest gap, where the rate is zero, Halley's step is short and leads nowhere.
-        bool const inside = rate < 0 && std::abs(newton * bend) < 1 && next >= low && next <= high;
-        if (inside && std::abs(step) * std::max(1.0, std::abs(bend)) < root_step) {
-            Instant const end = shifted(here, step);
-            Decayed const to_end = path.decayed(end.t);
-            return {start.at, end, {}, std::max(-path.rate(end, to_end), 0.0), 0, to_end};
-        }
-        if (!inside || i > 20) next = low + (high - low) / 2;
-        if (high - low <= 4e-16 * (1 + t) || next == t)
-            return {start.at, here, {}, std::max(-rate, 0.0), 0, d};
-        t = next;
-    }
-    throw PhaseError("the landing was not found");
+        double const rate = path.rate(here, d);
+        return Derivatives{path.gap(here, d), rate, -normal(here) - waves_.drag() * rate};
+    };
+    double guess = high - (high - low) / 10;  // the gap falls there, and is not yet at its lowest
+    if (start.rate > 0) guess = start.at.t + 2 * start.rate / normal(start.at);
+    Instant const end = instant_at(falling_zero(derivatives, low, high, guess), here);
+    Decayed const d = path.decayed(end.t);
+    return {start.at, end, {}, std::max(-path.rate(end, d), 0.0), 0, d};
 }
 
-/// The time of the lowest gap: the zero of its rate, which rises from negative to positive.
+/// The time of the lowest gap: its rate rises from negative to positive.
 double FlightChain::lowest(Ballistic const& path, double low, double high) const {
-    double t = low + (high - low) / 2;
-    for (int i = 0; i < 200; ++i) {
+    Wave const& normal = waves_.normal_force();
+    auto const derivatives = [&](double t) {
         Instant const here = Instant::at(t);
-        double const rate = path.rate(here, path.decayed(t));
-        (rate > 0 ? high : low) = t;
-        double next = t + rate / (waves_.normal_force()(here) + waves_.drag() * rate);
-        if (!(next > low && next < high)) next = low + (high - low) / 2;
-        if (std::abs(next - t) <= 4e-16 * (1 + t)) break;
-        t = next;
-    }
-    return t;
+        double const rate = path.rate(here, path.decayed(t)), bend = normal(here) + waves_.drag() * rate;
+        return Derivatives{-rate, bend, normal.rate(here) - waves_.drag() * bend};
+    };
+    return falling_zero(derivatives, low, high, low + (high - low) / 2);
 }
 
 // Between the zeros of the normal force N, g' exp(kappa t) is monotone, so that g' has one zero at most.

@@ -140,7 +140,7 @@ void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, Nor
             if (returns && peak < hopeless_growth) {
                 orbit.first = before;
                 orbit.cycles = cycles_from(orbit.hops, before);
-                orbit.in_doubt = peak >= most_growth;
+                orbit.in_doubt = peak >= most_growth && waves.restitution() > 0;
                 if (orbit.in_doubt) fly_again(chain, next, orbit);
                 break;
             }

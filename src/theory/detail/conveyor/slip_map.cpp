@@ -20,39 +20,18 @@ struct ContactLaw::Speed {
         double const moved = slide.path(at) - first_path + free * d.once + slide.drive.constant * d.twice;
         return {at, stopped, stopped ? 0 : std::max((*this)(at, d), 0.0), moved, d.decay, d.once};
     }
-};
-
-/// The speed falls from a positive to a zero or negative value between low and high and has one zero there:
-/// Halley's method within the bracket.
-bool ContactLaw::stop_between(Speed const& speed, double low, double high, double guess,
-                              SlideEnd& end) const {
-    Wave const& drive = speed.slide.drive;
-    double t = guess > low && guess < high ? guess : low + (high - low) / 2;
-    for (int i = 0; i < 200; ++i) {
-        Instant const here = Instant::at(t);
-        Decayed const d = speed.decayed(t);
-        double const w = speed(here, d), slope = drive(here) - speed.drag * w;
-        double const bend = (drive.rate(here) - speed.drag * slope) / slope;
-        double const newton = -w / slope, step = newton / (1 + newton * bend / 2);
-        (w > 0 ? low : high) = t;
-        double next = t + step;
-        // Where the speed is largest, Halley's step is short and leads nowhere.
-        bool const inside = slope < 0 && std::abs(newton * bend) < 1 && next >= low && next <= high;
-        if (inside && std::abs(step) * std::max(1.0, std::abs(bend)) < root_step) {
-            Instant const stop = shifted(here, step);
-            end = speed.end(stop, speed.decayed(stop.t), true);
-            return true;
-        }
-        // Near a tangency rounding keeps the steps from shrinking: then bisect.
-        if (!inside || i > 20) next = low + (high - low) / 2;
-        if (high - low <= 4e-16 * (1 + std::abs(t)) || next == t) {
-            end = speed.end(here, d, true);
-            return true;
-        }
-        t = next;
+    /// The end of a slide whose speed falls to zero between low and high.
+    SlideEnd stop_between(double low, double high, double guess) const {
+        Instant here{};
+        auto const derivatives = [&](double t) {
+            here = Instant::at(t);
+            double const w = (*this)(here), rate = slide.drive(here) - drag * w;
+            return Derivatives{w, rate, slide.drive.rate(here) - drag * rate};
+        };
+        Instant const stop = instant_at(falling_zero(derivatives, low, high, guess), here);
+        return end(stop, decayed(stop.t), true);
     }
-    return false;
-}
+};
 
 // Between the zeros of the drive, w exp(kappa t) is monotone.
 SlideEnd ContactLaw::slide(Sliding const& s, double w0, Instant const& from, Instant const& limit,
@@ -61,7 +40,6 @@ SlideEnd ContactLaw::slide(Sliding const& s, double w0, Instant const& from, Ins
     auto section = s.accelerates.at(from.t);
     Instant low = from;
     double w_low = w0;
-    SlideEnd end{};
     while (true) {
         if (section.positive) {
             if (!(section.end.t < limit.t)) break;
@@ -76,11 +54,9 @@ SlideEnd ContactLaw::slide(Sliding const& s, double w0, Instant const& from, Ins
             double guess = hint > 0 ? from.t + hint : 0;
             if (!(guess > low.t && guess < high.t)) {
                 if (w_low == unknown) w_low = speed(low);
-                guess = low.t + (high.t - low.t) * w_low / (w_low - w_high);
+                guess = low.t + (high.t - low.t) * std::acos((w_low + w_high) / (w_high - w_low)) / pi;
             }
-            if (!stop_between(speed, low.t, high.t, guess, end))
-                throw PhaseError("the end of a slide was not found");
-            return end;
+            return speed.stop_between(low.t, high.t, guess);
         }
         if (!whole) break;
         s.accelerates.advance(section);

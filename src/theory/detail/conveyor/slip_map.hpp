@@ -1,6 +1,7 @@
 #pragma once
 
 #include "theory/detail/common/fixed_point.hpp"
+#include "theory/detail/common/root.hpp"
 #include "theory/detail/conveyor/normal_orbit.hpp"
 
 #include <vector>
@@ -57,7 +58,6 @@ class ContactLaw {
 
   private:
     struct Speed;
-    bool stop_between(Speed const& speed, double low, double high, double guess, SlideEnd& end) const;
 
     ConveyorWaves const& waves_;
 };

@@ -1,5 +1,7 @@
 #include "theory/detail/conveyor/wave.hpp"
 
+#include "theory/detail/common/root.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -35,20 +37,15 @@ class Multiples {
     int order_ = 1;
 };
 
-/// The zero of a wave between two times at which its signs differ, by Halley's method within the bracket.
-Instant zero_between(Wave const& wave, double low, double high, Instant here, bool rises) {
-    for (int i = 0; i < 200; ++i) {
-        double const value = wave(here), rate = wave.rate(here), bend = wave.bend(here) / rate;
-        ((value > 0) == rises ? high : low) = here.t;
-        double const newton = -value / rate, step = newton / (1 + newton * bend / 2);
-        double next = here.t + step;
-        bool const inside = std::abs(newton * bend) < 1 && next >= low && next <= high;
-        if (inside && std::abs(step) * std::max(1.0, std::abs(bend)) < root_step) return shifted(here, step);
-        if (!inside || i > 20) next = low + (high - low) / 2;
-        if (high - low <= 4e-16 * (1 + here.t) || next == here.t) break;
-        here = Instant::at(next);
-    }
-    return here;
+/// The zero of a wave between two times at which its signs differ.
+Instant zero_between(Wave const& wave, double low, double high, bool rises) {
+    double const sign = rises ? -1 : 1;
+    Instant here{};
+    auto const derivatives = [&](double t) {
+        here = Instant::at(t);
+        return Derivatives{sign * wave(here), sign * wave.rate(here), sign * wave.bend(here)};
+    };
+    return instant_at(falling_zero(derivatives, low, high, low + (high - low) / 2), here);
 }
 
 }  // namespace
@@ -93,12 +90,10 @@ void Crossings::find_of_sine(Wave const& wave) {
     }
     double const m = -wave.constant / size, r = std::sqrt((1 - m) * (1 + m));
     double const cosine = wave.sine / size, sine = wave.cosine / size;
-    for (double const side : {r, -r}) {  // it rises where cos(t + phi) is positive
-        double const s = m * cosine - side * sine, c = side * cosine + m * sine;
-        double t = std::atan2(s, c);
-        if (t < 0) t += two_pi;
-        zeros_.push_back({t, s, c});
-    }
+    double const phase = sine == 0 && cosine > 0 ? 0 : std::atan2(sine, cosine), rise = std::atan2(m, r);
+    auto const within_cycle = [](double t) { return t < 0 ? t + two_pi : t < two_pi ? t : t - two_pi; };
+    zeros_.push_back({within_cycle(rise - phase), m * cosine - r * sine, r * cosine + m * sine});
+    zeros_.push_back({within_cycle(pi - rise - phase), m * cosine + r * sine, m * sine - r * cosine});
     positive_at_start_ = zeros_[1].t < zeros_[0].t;  // the first zero is the one where it falls
     if (positive_at_start_) std::swap(zeros_[0], zeros_[1]);
 }
@@ -132,7 +127,7 @@ void Crossings::find_between(Wave const& wave, double bound, Node a, Node b) {
     Instant const middle = Instant::at(a.t + h / 2);
     bool const monotone = std::abs(wave.rate(middle)) > bound * h / 2;
     if (monotone || h < touching) {
-        if (changes) zeros_.push_back(zero_between(wave, a.t, b.t, middle, b.value >= 0));
+        if (changes) zeros_.push_back(zero_between(wave, a.t, b.t, b.value >= 0));
         return;
     }
     Node const m{middle.t, wave(middle)};
