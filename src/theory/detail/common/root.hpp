@@ -25,24 +25,32 @@ inline constexpr double root_step = 3e-6;
 template <class Function>
 double falling_zero(Function const& f, double low, double high, double guess) {
     double value = 0, rate = 0, bend = 0;  // where it was evaluated last
-    auto const noting = [&](double t) {
-        Derivatives const all = f(t);
+    auto const noting = [&](double at) {
+        Derivatives const all = f(at);
         std::tie(value, rate, bend) = all;
         return all;
     };
+    auto const is_close = [&] {
+        return rate < 0 && std::abs(value) * std::max(-rate, std::abs(bend)) <= root_step * rate * rate;
+    };
+    double t = guess > low && guess < high ? guess : low + (high - low) / 2;
+    noting(t);
+    // Where the guess is good, the first step is the last one, and Boost's care would cost more than the step.
+    double const next = t - 2 * value * rate / (2 * rate * rate - value * bend);
+    if (next >= low && next <= high) {
+        if (is_close()) return next;
+        t = next;
+    }
     try {
-        double t = guess > low && guess < high ? guess : low + (high - low) / 2;
         for (int i = 0; i < 4 && high > low; ++i) {
             std::uintmax_t steps = 20;
             t = boost::math::tools::halley_iterate(noting, t, low, high, 20, steps);
-            bool const is_close =
-                std::abs(value) * std::max(-rate, std::abs(bend)) <= root_step * rate * rate;
-            if (rate < 0 && is_close) return t;
+            if (is_close()) return t;
         }
     } catch (boost::math::evaluation_error const&) {
         // The first steps went away from the zero.
     }
-    auto const value_at = [&](double t) { return std::get<0>(f(t)); };
+    auto const value_at = [&](double at) { return std::get<0>(f(at)); };
     double const at_low = value_at(low), at_high = value_at(high);
     if (!(at_low > 0)) return low;
     if (!(at_high < 0)) return high;

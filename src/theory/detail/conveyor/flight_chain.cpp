@@ -117,8 +117,14 @@ Hop FlightChain::landing(Start const& start, Ballistic const& path, double low, 
         double const rate = path.rate(here, d);
         return Derivatives{path.gap(here, d), rate, -normal(here) - waves_.drag() * rate};
     };
-    double guess = high - (high - low) / 10;  // the gap falls there, and is not yet at its lowest
-    if (start.rate > 0) guess = start.at.t + 2 * start.rate / normal(start.at);
+    double guess = start.at.t + 2 * start.rate / normal(start.at);
+    if (start.rate == 0) {
+        // From contact: a fit to the flights of a plain sine, which depend on this ratio only (Eqs. 12-14).
+        double const q = -normal.rate(start.at) / normal.bend(start.at);
+        guess = start.at.t + 4 * q / (1 + 0.21 * q + 0.035 * q * q);
+    }
+    // The gap falls near the end, and is not yet at its lowest.
+    if (!(guess > low && guess < high)) guess = high - (high - low) / 10;
     Instant const end = instant_at(falling_zero(derivatives, low, high, guess), here);
     Decayed const d = path.decayed(end.t);
     return {start.at, end, {}, std::max(-path.rate(end, d), 0.0), 0, d};

@@ -87,8 +87,12 @@ Tangent follow_contact(ContactLaw const& law, Tangent s, Instant at, Instant con
             sliding = start.sign;
         }
         Sliding const& slide = law.waves().slide(sliding != 0 ? sliding : s.v);
-        SlideEnd const to = law.slide(slide, std::abs(s.v), at, end, hints.guess());
-        hints.learn(to.stopped ? to.at.t - at.t : unknown);
+        double const speed = std::abs(s.v);
+        SlideEnd const to = law.slide(slide, speed, at, end, hints.guess(speed));
+        if (to.stopped)
+            hints.learn(to.at.t - at.t, speed, -to.decay / slide.drive(to.at));
+        else
+            hints.learn(unknown, 0, 0);
         record(slide_kind(slide.sign > 0, landed), at.t, to.at.t, s.v, slide.sign * to.moved,
                s.slope * to.reach);
         landed = false;

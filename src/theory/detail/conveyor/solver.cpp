@@ -36,7 +36,7 @@ bool is_standard(MotionStart const& start) {
 Tangent ConveyorSolver::follow_period(double v) {
     notes_.clear();
     displacement_ = derivative_ = 0;
-    hints_.next = 0;
+    hints_.restart();
     std::size_t hop = orbit_.first;
     auto const record = [&](PhaseKind kind, double from, double to, double speed, double moved,
                             double derivative) {

@@ -40,7 +40,7 @@ ConveyorSolver::Batch ConveyorSolver::follow_cycles(Tangent& s, std::size_t& hop
             orbit_.hops.push_back(chain.fly(start, orbit_.next));
         }
         Hop const& now = orbit_.hops[hop];
-        hints_.next = 0;
+        hints_.restart();
         s = follow_hop(law, now, leap(waves_, now), s, hints_, record);
         batch.elapsed += now.leave.t - now.start.t;
     }

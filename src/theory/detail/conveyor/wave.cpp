@@ -137,7 +137,8 @@ void Crossings::find_between(Wave const& wave, double bound, Node a, Node b) {
 
 Crossings::Section Crossings::at(double t) const {
     if (zeros_.empty()) return {positive_at_start_, {HUGE_VAL, 0, 1}, 0};
-    double const base = two_pi * std::floor(t * (1 / two_pi)), passed = t - base + tolerance(t);
+    double const base = t >= 0 && t < two_pi ? 0 : two_pi * std::floor(t * (1 / two_pi));
+    double const passed = t - base + tolerance(t);
     std::size_t i = 0;
     while (i < zeros_.size() && zeros_[i].t <= passed) ++i;
     double shift = base;
