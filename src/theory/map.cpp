@@ -20,7 +20,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr int bisections = 30;          // of an edge of the grid: to 1e-9 of its length
+constexpr int bisections = 27;          // of an edge of the grid: to 1e-8 of its length
 constexpr int bisections_general = 12;  // for models that cost a thousand times more: to 2e-4 of it
 
 /// A chain of rebounds counts as one flight in a map, because the number of rebounds changes from point to

@@ -31,7 +31,7 @@ struct MapPoint {
 };
 
 /// A segment of the boundary between two modes within one cell of the map; its end points are roots, known to
-/// 1e-9 of a cell.
+/// 1e-8 of a cell.
 struct BoundaryPiece {
     double x0, y0, x1, y1;    ///< its two ends, in the units of the axes
     ModeCode mode_a, mode_b;  ///< the modes on its two sides
@@ -62,7 +62,7 @@ struct MapOptions {
 /// Velocity efficiency and mode on a grid of two inputs with the others fixed (Figs 2-5 of the paper).
 ///
 /// Point masses and conveyors are solved by EfficiencySolver. The boundary between two modes is located by
-/// bisection along every edge of the grid whose end points differ in mode, to 1e-9 of the edge (2e-4 for
+/// bisection along every edge of the grid whose end points differ in mode, to 1e-8 of the edge (2e-4 for
 /// models other than the plastic point mass), if the period is one or two cycles. A chain of rebounds counts
 /// as one flight in a map.
 ///
