@@ -18,7 +18,7 @@ namespace vibrotrough::learn {
 namespace {
 
 theory::PointMass point_of(theory::Drive const& d, double friction) {
-    return {std::clamp(d.throw_number(), 1e-6, 1e4), std::tan(d.vibration_angle), std::tan(d.inclination),
+    return {std::clamp(d.throw_number(), 1e-6, theory::largest_throw_number), std::tan(d.vibration_angle), std::tan(d.inclination),
             friction};
 }
 

@@ -1,8 +1,7 @@
 #include "theory/conveyor.hpp"
 
-#include "theory/detail/conveyor/check.hpp"
-#include "theory/detail/conveyor/model.hpp"
-#include "theory/detail/conveyor/solver.hpp"
+#include "theory/detail/ranges.hpp"
+#include "theory/detail/solver.hpp"
 
 #include <algorithm>
 
@@ -17,10 +16,7 @@ EffectiveFriction effective_friction(Conveyor const& c) {
 
 ConveyorMotion solve(Conveyor const& conveyor) {
     detail::check_ranges(conveyor);
-    ConveyorMotion answer = detail::ConveyorSolver().motion(conveyor);
-    // Forces and energies are those of the conveyor itself, however weak they are.
-    answer.model = std::make_shared<ConveyorModel const>(conveyor);
-    return answer;
+    return detail::ConveyorSolver().motion(conveyor);
 }
 
 }  // namespace vibrotrough::theory

@@ -1,7 +1,7 @@
 #include "theory/efficiency.hpp"
 
-#include "theory/detail/conveyor/check.hpp"
-#include "theory/detail/conveyor/solver.hpp"
+#include "theory/detail/ranges.hpp"
+#include "theory/detail/solver.hpp"
 
 namespace vibrotrough::theory {
 namespace {

@@ -1,6 +1,6 @@
 #include "theory/friction_test.hpp"
 
-#include "theory/detail/common/input_check.hpp"
+#include "theory/detail/ranges.hpp"
 #include "theory/point_mass.hpp"
 
 #include <algorithm>

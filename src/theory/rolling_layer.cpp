@@ -1,7 +1,7 @@
 #include "theory/rolling_layer.hpp"
 
 #include "theory/detail/common/first_zero.hpp"
-#include "theory/detail/common/input_check.hpp"
+#include "theory/detail/ranges.hpp"
 #include "theory/detail/rolling/search.hpp"
 #include "theory/detail/rolling/walk.hpp"
 

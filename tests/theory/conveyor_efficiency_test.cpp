@@ -1,5 +1,5 @@
 #include "theory/conveyor.hpp"
-#include "theory/detail/conveyor/wave.hpp"
+#include "theory/detail/wave.hpp"
 #include "theory/efficiency.hpp"
 #include "walked_motion.hpp"
 

@@ -1,7 +1,7 @@
 #include "conveyor_walk.hpp"
 
 #include "theory/detail/common/first_zero.hpp"
-#include "theory/detail/common/instant.hpp"
+#include "theory/detail/instant.hpp"
 
 #include <algorithm>
 #include <cmath>

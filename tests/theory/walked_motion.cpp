@@ -1,8 +1,8 @@
 #include "walked_motion.hpp"
 
 #include "conveyor_walk.hpp"
-#include "theory/detail/common/fixed_point.hpp"
-#include "theory/detail/conveyor/check.hpp"
+#include "theory/detail/fixed_point.hpp"
+#include "theory/detail/ranges.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "theory/detail/rolling/normal.hpp"
 
 #include "theory/detail/common/first_zero.hpp"
-#include "theory/detail/conveyor/normal_orbit.hpp"
+#include "theory/detail/normal_orbit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -161,12 +161,12 @@ RollingNormal soft(double throw_number, RollingLaw const& law) {
 RollingNormal hard(double throw_number) {
     RollingNormal normal;
     ContactForce const force{.constant = 1 / throw_number, .sine = -1};
-    ConveyorWaves waves;
+    Forces forces;
     Conveyor conveyor{};
     conveyor.point = {throw_number, 1, 0, 1};
-    waves.set(conveyor);
+    forces.set(conveyor);
     NormalOrbit orbit;
-    find_normal_orbit(waves, {}, orbit);
+    find_normal_orbit(forces, {}, orbit);
     normal.cycles = orbit.cycles;
     if (orbit.in_contact)
         normal.pieces.push_back(

@@ -1,5 +1,5 @@
-#include "theory/detail/common/fixed_point.hpp"
-#include "theory/detail/conveyor/solver.hpp"
+#include "theory/detail/fixed_point.hpp"
+#include "theory/detail/solver.hpp"
 
 #include <algorithm>
 #include <array>
@@ -26,8 +26,8 @@ constexpr std::size_t most_notes = 20000;  // kept of a motion without a period,
 /// Follows at least so many cycles, and half as many flights, of a motion without a period from the start of
 /// hop number `hop`, and adds hops where there are not enough.
 ConveyorSolver::Batch ConveyorSolver::follow_cycles(Tangent& s, std::size_t& hop, int cycles) {
-    FlightChain const chain(waves_);
-    ContactLaw const law(waves_);
+    FlightChain const chain(forces_);
+    ContactLaw const law(forces_);
     Batch batch;
     auto const record = [&](PhaseKind kind, double from, double to, double speed, double distance, double) {
         batch.moved += distance;
@@ -41,7 +41,7 @@ ConveyorSolver::Batch ConveyorSolver::follow_cycles(Tangent& s, std::size_t& hop
         }
         Hop const& now = orbit_.hops[hop];
         hints_.restart();
-        s = follow_hop(law, now, leap(waves_, now), s, hints_, record);
+        s = follow_hop(law, now, leap(forces_, now), s, hints_, record);
         batch.elapsed += now.leave.t - now.start.t;
     }
     batch.gained = s.v - before;
@@ -114,7 +114,7 @@ Efficiency ConveyorSolver::average(std::size_t first) {
     Batch const all = sum_of(batches);
     cycles_followed_ = all.elapsed / two_pi;
     // Drag takes 1 / kappa to bring a mass that nothing stops to its speed, at which it gains no more.
-    double const drag = waves_.drag(), kept = std::exp(-drag * all.elapsed);
+    double const drag = forces_.drag(), kept = std::exp(-drag * all.elapsed);
     bool const is_free = kept > 1e-6 && std::abs(s.slope / kept - 1) < 1e-6;
     if (drag > 0 && is_free && std::abs(all.gained / all.elapsed) > drag * half_width) {
         for (Batch& one : batches) one.moved += one.gained / drag;
@@ -126,11 +126,11 @@ Efficiency ConveyorSolver::average(std::size_t first) {
 /// Whether nothing has stopped the mass in any batch, and it was faster from each to the next. (20 means are
 /// in order by chance once in 1e18 times.)
 bool ConveyorSolver::gets_ever_faster(Tangent const& s, std::vector<Batch> const& batches) const {
-    double const downhill = -std::copysign(1.0, waves_.gravity());
+    double const downhill = -std::copysign(1.0, forces_.gravity());
     auto const is_slower = [&](Batch const& p, Batch const& q) {
         return downhill * p.mean() < downhill * q.mean();
     };
-    return waves_.drag() == 0 && s.slope == 1 && downhill * s.v > 0 &&
+    return forces_.drag() == 0 && s.slope == 1 && downhill * s.v > 0 &&
            std::is_sorted(batches.begin(), batches.end(), is_slower);
 }
 

@@ -1,6 +1,6 @@
-#include "theory/detail/conveyor/wave.hpp"
+#include "theory/detail/wave.hpp"
 
-#include "theory/detail/common/root.hpp"
+#include "theory/detail/root.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -67,6 +67,44 @@ double Wave::sum(Instant const& i) const {
 template double Wave::sum<0>(Instant const&) const;
 template double Wave::sum<1>(Instant const&) const;
 template double Wave::sum<2>(Instant const&) const;
+
+void Wave::set_sum(double a, Wave const& f, double b, Wave const& g) {
+    constant = a * f.constant + b * g.constant;
+    sine = a * f.sine + b * g.sine;
+    cosine = a * f.cosine + b * g.cosine;
+    overtones.resize(f.overtones.size());
+    for (std::size_t i = 0; i < overtones.size(); ++i) {
+        Overtone const &p = f.overtones[i], &q = g.overtones[i];
+        overtones[i] = {p.order, a * p.sine + b * q.sine, a * p.cosine + b * q.cosine};
+    }
+}
+
+/// @param factors  p and q of p f + q f' for an order k
+template <class Factors>
+void Wave::set(Wave const& f, Factors const& factors) {
+    auto const turned = [&](Overtone const& o) {
+        double const k = o.order;
+        auto const [p, q] = factors(k);
+        return Overtone{o.order, p * o.sine - q * k * o.cosine, p * o.cosine + q * k * o.sine};
+    };
+    Overtone const fundamental = turned({1, f.sine, f.cosine});
+    constant = 0;
+    sine = fundamental.sine;
+    cosine = fundamental.cosine;
+    overtones.resize(f.overtones.size());
+    std::transform(f.overtones.begin(), f.overtones.end(), overtones.begin(), turned);
+}
+
+void Wave::set_derivative(double second, double first, Wave const& f) {
+    set(f, [&](double k) { return std::pair(-second * k * k, first); });
+}
+
+void Wave::set_response(double kappa, Wave const& f) {
+    set(f, [&](double k) {
+        double const size = kappa * kappa + k * k;
+        return std::pair(kappa / size, -1 / size);
+    });
+}
 
 double Wave::bound() const {
     double bound = std::hypot(sine, cosine);

@@ -1,4 +1,4 @@
-#include "theory/detail/conveyor/normal_orbit.hpp"
+#include "theory/detail/normal_orbit.hpp"
 
 #include <algorithm>
 
@@ -103,7 +103,7 @@ FlightChain::Start with_rounding(FlightChain::Start start, std::size_t number) {
     return start;
 }
 
-void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, NormalOrbit& orbit,
+void find_normal_orbit(Forces const& forces, MotionStart const& start, NormalOrbit& orbit,
                        std::vector<std::size_t> const* after_zero) {
     orbit.hops.clear();
     orbit.again.clear();
@@ -112,10 +112,10 @@ void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, Nor
     orbit.in_doubt = false;
     orbit.joined = never;
     orbit.begin = start.at;
-    FlightChain const chain(waves);
+    FlightChain const chain(forces);
     FlightChain::Start next = chain.from(start);
     orbit.in_contact = !std::isfinite(next.at.t);
-    orbit.left_at.assign(waves.presses().count(), never);
+    orbit.left_at.assign(forces.presses().count(), never);
     if (orbit.in_contact) {
         orbit.cycles = 1;
         return;
@@ -140,7 +140,7 @@ void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, Nor
             if (returns && peak < hopeless_growth) {
                 orbit.first = before;
                 orbit.cycles = cycles_from(orbit.hops, before);
-                orbit.in_doubt = peak >= most_growth && waves.restitution() > 0;
+                orbit.in_doubt = peak >= most_growth && forces.restitution() > 0;
                 if (orbit.in_doubt) fly_again(chain, next, orbit);
                 break;
             }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/detail/common/instant.hpp"
+#include "theory/detail/instant.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/detail/conveyor/flight_chain.hpp"
+#include "theory/detail/flights.hpp"
 
 // Internal to this room.
 namespace vibrotrough::theory::detail {
@@ -35,7 +35,7 @@ FlightChain::Start with_rounding(FlightChain::Start start, std::size_t number);
 /// @param after_zero  for each zero of the normal force: the known motion after a take-off there, or never.
 /// Nothing more is to be known when the mass takes off at a known one.
 /// @throws PhaseError when a flight does not end
-void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, NormalOrbit& orbit,
+void find_normal_orbit(Forces const& forces, MotionStart const& start, NormalOrbit& orbit,
                        std::vector<std::size_t> const* after_zero = nullptr);
 
 }  // namespace vibrotrough::theory::detail

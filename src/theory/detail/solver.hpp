@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/detail/conveyor/phase_notes.hpp"
+#include "theory/detail/phase_notes.hpp"
 #include "theory/efficiency.hpp"
 
 #include <optional>
@@ -31,8 +31,8 @@ class ConveyorSolver {
     std::size_t joined() const { return orbit_.joined; }
     /// The flights of the motion that was solved last.
     NormalOrbit const& orbit() const { return orbit_; }
-    ConveyorWaves const& waves() const { return waves_; }
-    /// The same answer with its phases; without a model.
+    Forces const& forces() const { return forces_; }
+    /// The same answer with its phases.
     ConveyorMotion motion(Conveyor const& conveyor);
 
     /// What happened in a part of a motion without a period.
@@ -65,7 +65,7 @@ class ConveyorSolver {
     bool gets_ever_faster(Tangent const& s, std::vector<Batch> const& batches) const;
     Batch follow_cycles(Tangent& s, std::size_t& hop, int cycles);
 
-    ConveyorWaves waves_;
+    Forces forces_;
     NormalOrbit orbit_;
     bool orbit_known_ = false;
     MotionStart from_;
