@@ -31,7 +31,7 @@ Design design_at(DesignLimits const& l, Drive const& drive, PointSolver& solver)
     inputs.set(Input::tan_vibration_angle, std::tan(drive.vibration_angle));
     inputs.set(Input::tan_inclination, std::tan(drive.inclination));
     inputs.set(Input::friction, l.friction);
-    MapPoint const e = solver(inputs);
+    Efficiency const e = solver(inputs);
     d.velocity_efficiency = e.velocity_efficiency;
     d.conveying_speed = e.velocity_efficiency * drive.trough_speed();
     d.mass_flow = l.bulk_density * l.layer_height * l.layer_width * d.conveying_speed;

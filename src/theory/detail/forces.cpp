@@ -84,6 +84,18 @@ void Forces::set(Conveyor const& c) {
     known_ = true;
 }
 
+void Forces::set_constant(double needed, double friction) {
+    known_ = false;
+    last_ = {};
+    needed_ = {};
+    needed_.constant = needed;
+    normal_ = {};
+    normal_.constant = friction;
+    kinetic_ = 1;
+    set_slide(positive_, +1, kinetic_);
+    set_slide(negative_, -1, kinetic_);
+}
+
 // u' = -kappa u - gravity - sign mu tan(beta) N; with u = X' + v the speed w = sign v obeys w' = -kappa w +
 // drive. A slide starts from rest where the friction that rest needs exceeds mu_s tan(beta) N.
 void Forces::set_slide(Sliding& s, double sign, double rest) {

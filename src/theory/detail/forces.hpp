@@ -50,6 +50,8 @@ class Forces {
   public:
     /// Takes the place of the last conveyor, reusing its memory.
     void set(Conveyor const& conveyor);
+    /// Becomes forces along the trough that do not change: what a mass that rests needs, and friction.
+    void set_constant(double needed, double friction);
 
     Conveyor const& conveyor() const { return last_; }
     double drag() const { return last_.air_drag; }       ///< kappa
