@@ -37,7 +37,7 @@ constexpr double least_drift =
 constexpr double closing = 1e-6;  // rad: tolerance in time for an orbit that recurs within state_match
 constexpr double repeat_match =
     1e-9;  // tolerance of displacement and impact energy per cycle, period to period
-constexpr double state_match = 1e-11;  // tolerance of gap, its rate and slip velocity, in their units
+constexpr double state_match = 1e-13;  // tolerance of gap, its rate and slip velocity, in their units
 
 Motion no_motion(Outcome outcome, double eta) {
     return {.velocity_efficiency = eta,

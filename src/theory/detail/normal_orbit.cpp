@@ -164,9 +164,9 @@ void find_normal_orbit(Forces const& forces, MotionStart const& start, NormalOrb
         if (peak < hopeless_growth) peak = std::max(peak, growth.factor());
         if (chaos_start == HUGE_VAL && has_followed(chaos_from))
             chaos_start = growth.logarithm();
-        if (has_followed(chaos_to) &&
-            (irregular || growth.logarithm() - chaos_start > std::log(chaotic_growth)))
-            break;
+        // Where rounding has decided what follows a contact, the motion may still end elsewhere.
+        bool const chaotic = growth.logarithm() - chaos_start > std::log(chaotic_growth);
+        if (has_followed(chaos_to) && chaotic && !irregular) break;
         if (next.zero >= 0) continue;
         double const match = has_followed(most_normal / 2) ? state_match : close_match;
         std::size_t const k = hops_to_return(orbit.hops, since, match);

@@ -19,9 +19,9 @@ using Derivatives = std::tuple<double, double, double>;
 /// Halley's last step, which leaves an error of its cube: that is below rounding.
 inline constexpr double root_step = 3e-6;
 
-/// The zero between low and high of a function that is positive before it and negative after it: Halley's
-/// method from a guess, and TOMS 748 where that leads nowhere, such as beside the place where the function is
-/// flat.
+/// The zero between low and high of a function that is positive before it, but for low itself, and negative
+/// after it: Halley's method from a guess, and TOMS 748 where that leads nowhere, such as beside the place
+/// where the function is flat.
 template <class Function>
 double falling_zero(Function const& f, double low, double high, double guess) {
     double value = 0, rate = 0, bend = 0;  // where it was evaluated last
@@ -46,14 +46,21 @@ double falling_zero(Function const& f, double low, double high, double guess) {
             std::uintmax_t steps = 20;
             t = boost::math::tools::halley_iterate(noting, t, low, high, 20, steps);
             if (is_close()) return t;
+            if (!(rate < 0)) break;
         }
     } catch (boost::math::evaluation_error const&) {
         // The first steps went away from the zero.
     }
     auto const value_at = [&](double at) { return std::get<0>(f(at)); };
-    double const at_low = value_at(low), at_high = value_at(high);
-    if (!(at_low > 0)) return low;
+    double at_low = value_at(low), at_high = value_at(high);
     if (!(at_high < 0)) return high;
+    while (!(at_low > 0)) {  // it is zero there and rises
+        t = low + (high - low) / 2;
+        if (!(t > low && t < high)) return low;
+        double const there = value_at(t);
+        (there > 0 ? low : high) = t;
+        (there > 0 ? at_low : at_high) = there;
+    }
     std::uintmax_t steps = 200;
     auto const zero = boost::math::tools::toms748_solve(value_at, low, high, at_low, at_high,
                                                         boost::math::tools::eps_tolerance<double>(), steps);

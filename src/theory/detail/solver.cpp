@@ -24,7 +24,7 @@ constexpr double least_linear =
 constexpr double idle = 1e-9;       // share of gravity's pull by which friction may miss it as if it held it
 constexpr int longest_period = 64;  // cycles, by the rule of Table 1
 constexpr int most_periods = 3000;  // from rest
-constexpr double repeat_match = 1e-9;  // of displacement and impact energy per cycle, period to period
+constexpr double repeat_match = 5e-10;  // of displacement and impact energy per cycle, period to period
 
 bool is_standard(MotionStart const& start) {
     return start.at.t == 0 && start.rebound == 0 && start.v == 0;
