@@ -1,6 +1,6 @@
 #include "conveyor_walk.hpp"
 
-#include "theory/detail/common/first_zero.hpp"
+#include "first_zero.hpp"
 #include "theory/detail/instant.hpp"
 
 #include <algorithm>
