@@ -96,7 +96,7 @@ py::dict solve_columns(std::map<std::string, Column> const& columns, std::size_t
             seconds += answer.cpu_seconds_per_solution * static_cast<double>(inputs.size());
             for (auto& of_one : answer.motions) motions.push_back(std::move(of_one));
             for (std::size_t i = 0; i < inputs.size(); ++i) {
-                MapPoint const& point = answer.points[i];
+                Efficiency const& point = answer.points[i];
                 eta[begin + i] = point.velocity_efficiency;
                 width[begin + i] = point.half_width;
                 speed[begin + i] =
@@ -120,8 +120,7 @@ py::dict solve_columns(std::map<std::string, Column> const& columns, std::size_t
 }
 
 ConveyorMotion solve_one(Inputs const& inputs) {
-    ConveyorMotion motion =
-        inputs.plastic() ? solve_plastic(inputs.conveyor(), Detail::pieces) : solve(inputs.conveyor());
+    ConveyorMotion motion = solve(inputs.conveyor());
     if (motion.pieces.empty())
         throw std::invalid_argument("the motion has no period: " +
                                     std::string(to_string(motion.motion.outcome)));
@@ -206,7 +205,7 @@ py::dict solve_map_of(Constants const& fixed, std::tuple<std::string, double, do
     py::array_t<int> period(count);
     py::array_t<bool> converged(count);
     for (std::size_t i = 0; i < count; ++i) {
-        MapPoint const& point = solved->points[i];
+        Efficiency const& point = solved->points[i];
         efficiency.mutable_data()[i] = point.velocity_efficiency;
         half_width.mutable_data()[i] = point.half_width;
         mode.mutable_data()[i] = point.mode;

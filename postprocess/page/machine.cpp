@@ -4,7 +4,6 @@
 #include "atlas/unknown.hpp"
 #include "learn/makers_rule.hpp"
 #include "learn/model_errors.hpp"
-#include "theory/plastic_quantities.hpp"
 #include "theory/quantities.hpp"
 #include "theory/tested_range.hpp"
 #include "theory/unusual.hpp"
@@ -233,8 +232,8 @@ theory::RollingLayer layer_of(Settings const& settings) {
 }
 
 Landing landing(Settings const& settings) {
-    theory::PointMass const point = settings.inputs().point();
-    auto const found = theory::plastic_quantities(theory::solve(point), point, machine_of(settings));
+    auto const motion = theory::solve(theory::Conveyor{.point = settings.inputs().point()});
+    auto const found = theory::impact_and_power(motion, machine_of(settings));
     double const mass_per_area = 1e-3 * settings[Setting::depth_mm] * settings[Setting::bulk_density];
     return {found.impact_speed, found.mean_power * mass_per_area};
 }
@@ -262,7 +261,7 @@ std::vector<Frame> frames(Settings const& settings, bool rolling, int count) {
             add(s.t, s.kind, travel, s.gap, s.normal_force, s.tangential_force);
         }
     } else {
-        auto const motion = theory::solve_plastic(settings.inputs().conveyor(), theory::Detail::pieces);
+        auto const motion = theory::solve(settings.inputs().conveyor());
         if (motion.motion.outcome != theory::Outcome::periodic)
             throw std::invalid_argument(theory::to_string(motion.motion.outcome));
         auto const samples = theory::trace(motion, count);

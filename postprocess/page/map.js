@@ -66,7 +66,7 @@ function drawMap() {
   context.imageSmoothingEnabled = false;
   context.drawImage(map.cells, left, above, inner, tall);
   drawMapAxes(context, { width, height, inner, tall, colour });
-  page.machines.forEach((one, k) => drawMapPoint(context, one, k, inner, tall));
+  page.machines.forEach((one, k) => drawEfficiency(context, one, k, inner, tall));
   showMapLegend();
 }
 
@@ -112,7 +112,7 @@ function drawMapAxes(context, { height, inner, tall, colour }) {
   context.restore();
 }
 
-function drawMapPoint(context, one, k, inner, tall) {
+function drawEfficiency(context, one, k, inner, tall) {
   const [xFrom, xTo] = axisRange(page.mapX), [yFrom, yTo] = axisRange(page.mapY), { left, above } = mapFrame;
   const x = left + (one[page.mapX] - xFrom) / (xTo - xFrom) * inner, y = above + tall - (one[page.mapY] - yFrom) / (yTo - yFrom) * tall;
   context.beginPath();

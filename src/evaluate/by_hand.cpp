@@ -4,7 +4,6 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "deck/deck.hpp"
-#include "deck/deck.hpp"
 #include "evaluate/case.hpp"
 #include "evaluate/packing.hpp"
 #include "scenario/reader/campaign_file.hpp"
@@ -12,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <regex>
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "learn/machine_keys.hpp"
 #include "learn/risk_search.hpp"
 #include "learn/way_out.hpp"
-#include "theory/plastic_quantities.hpp"
+#include "theory/quantities.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -170,11 +170,10 @@ std::vector<std::string> warnings_at(DesignTask const& task, RiskDesign const& d
 void describe_motion(DesignTask const& task, RiskDesign& d) {
     theory::PointMass const point{d.throw_number, std::tan(d.drive.vibration_angle),
                                   std::tan(d.drive.inclination), task.friction.median};
-    theory::Motion const motion = theory::solve(point);
-    d.efficiency = motion.velocity_efficiency;
-    d.mode = motion.mode;
-    d.power_per_mass =
-        theory::plastic_quantities(motion, point, {d.drive.amplitude, task.space.gravity}).mean_power;
+    theory::ConveyorMotion const answer = theory::solve(theory::Conveyor{.point = point});
+    d.efficiency = answer.motion.velocity_efficiency;
+    d.mode = answer.motion.mode;
+    d.power_per_mass = theory::impact_and_power(answer, {d.drive.amplitude, task.space.gravity}).mean_power;
 }
 
 /// What a model says of a layer.

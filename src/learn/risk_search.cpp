@@ -2,7 +2,7 @@
 
 #include "learn/uncertain.hpp"
 #include "learn/way_out.hpp"
-#include "theory/plastic_quantities.hpp"
+#include "theory/quantities.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,12 +31,12 @@ double normal_share_above(double z) {
 }
 
 /// Impact speed and power of the plastic point mass; nothing when it runs away.
-std::optional<theory::PlasticQuantities> quantities_of(theory::Drive const& d, double friction) {
-    theory::PointMass const point{std::clamp(d.throw_number(), 1e-6, 1e4), std::tan(d.vibration_angle),
-                                  std::tan(d.inclination), friction};
-    theory::Motion const motion = theory::solve(point);
-    if (motion.outcome != theory::Outcome::periodic) return {};
-    return theory::plastic_quantities(motion, point, {d.amplitude});
+std::optional<theory::ImpactAndPower> quantities_of(theory::Drive const& d, double friction) {
+    theory::PointMass const point{std::clamp(d.throw_number(), 1e-6, theory::largest_throw_number),
+                                  std::tan(d.vibration_angle), std::tan(d.inclination), friction};
+    theory::ConveyorMotion const motion = theory::solve(theory::Conveyor{.point = point});
+    if (!motion.motion.converged) return {};
+    return theory::impact_and_power(motion, {d.amplitude});
 }
 
 /// m/s, standard deviation of a model's speed when one number of a drive is not exact; beside the end of what

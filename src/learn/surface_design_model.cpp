@@ -131,7 +131,7 @@ class SurfaceAtDrives {
             at[atlas::amplitude_input] *= drive.amplitude / layer().trough.amplitude;
             return atlas::efficiency_at(atlas::within_ranges(at));
         }
-        double const eta = solver_({std::clamp(drive.throw_number(), 1e-6, 1e4),
+        double const eta = solver_({std::clamp(drive.throw_number(), 1e-6, theory::largest_throw_number),
                                     std::tan(drive.vibration_angle), std::tan(drive.inclination), mu})
                                .velocity_efficiency;
         return std::isfinite(eta) ? std::optional(eta) : std::nullopt;

@@ -1,6 +1,7 @@
 #include "measure/landing.hpp"
 
 #include "measure/constants.hpp"
+#include "theory/pushed_mass.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,40 +10,6 @@ namespace vibrotrough::measure {
 namespace {
 
 constexpr double landed = 0.01;  ///< of the approach: the landing is over
-constexpr int most_periods = 1000;
-constexpr double settled = 1e-9;  ///< of the velocity scale, change over a period
-
-/// Slip against a trough of constant acceleration, with constant friction; exact.
-struct Slip {
-    double speed = 0, way = 0;
-
-    /// @param drive     m/s^2, of the trough less gravity's: what the slip loses where nothing rubs
-    /// @param friction  m/s^2, the most that friction gives
-    void advance(double time, double drive, double friction) {
-        while (time > 0) {
-            double const direction = speed != 0 ? speed : -drive;
-            if (speed == 0 && std::abs(drive) <= friction) return;
-            double const rate = -drive - std::copysign(friction, direction);
-            double const stop = speed * rate < 0 ? -speed / rate : time;
-            double const step = std::min(stop, time);
-            way += (speed + rate * step / 2) * step;
-            speed = stop <= time && speed * rate < 0 ? 0 : speed + rate * step;
-            time -= step;
-        }
-    }
-};
-
-/// One period of the mass under the layer's normal force.
-void advance(Slip& slip, PhaseCurves const& curves, SlidingMass const& facts) {
-    double const interval = 1 / (facts.frequency * PhaseSeries::per_cycle);
-    double before = curves.trough_velocity_x.back();
-    for (std::size_t i = 0; i < curves.trough_velocity_x.size(); ++i) {
-        double const now = curves.trough_velocity_x[i];
-        double const friction = facts.friction * std::max(curves.floor_force[i], 0.0) / facts.mass;
-        slip.advance(interval, (now - before) / interval - facts.gravity_x, friction);
-        before = now;
-    }
-}
 
 }  // namespace
 
@@ -66,15 +33,17 @@ std::optional<double> landing_friction(LayerMotion const& motion) {
 
 std::optional<double> efficiency_by_normal_force(PhaseCurves const& curves, SlidingMass const& facts) {
     if (curves.trough_velocity_x.empty()) return {};
-    double const period = static_cast<double>(curves.trough_velocity_x.size()) / PhaseSeries::per_cycle;
-    Slip slip;
-    for (int i = 0; i < most_periods; ++i) {
-        Slip const before = slip;
-        advance(slip, curves, facts);
-        if (std::abs(slip.speed - before.speed) < settled * facts.velocity_scale)
-            return (slip.way - before.way) * facts.frequency / (period * facts.velocity_scale);
+    double const interval = 1 / (facts.frequency * PhaseSeries::per_cycle);
+    double before = curves.trough_velocity_x.back();
+    std::vector<theory::PushedInterval> period;
+    for (std::size_t i = 0; i < curves.trough_velocity_x.size(); ++i) {
+        double const now = curves.trough_velocity_x[i];
+        period.push_back({(now - before) / interval - facts.gravity_x,
+                          facts.friction * std::max(curves.floor_force[i], 0.0) / facts.mass});
+        before = now;
     }
-    return {};
+    auto const slip = theory::mean_slip(period, interval);
+    return slip ? std::optional(*slip / facts.velocity_scale) : std::nullopt;
 }
 
 }  // namespace vibrotrough::measure

@@ -116,7 +116,7 @@ void write_theory_map(std::filesystem::path const& path, theory::Map const& map,
     std::vector<int> mode, period, outcome;
     for (auto* const column : {&efficiency, &half_width}) column->reserve(map.points.size());
     for (auto* const column : {&mode, &period, &outcome}) column->reserve(map.points.size());
-    for (theory::MapPoint const& point : map.points) {
+    for (theory::Efficiency const& point : map.points) {
         efficiency.push_back(point.velocity_efficiency);
         half_width.push_back(point.half_width);
         mode.push_back(modes(point.mode));

@@ -22,15 +22,15 @@ constexpr std::uintmax_t largest_file = std::uintmax_t{2} << 30;
 struct AnswerColumn {
     char const* name;
     char const* description;
-    std::string (*text)(theory::MapPoint const&);
-    double (*number)(theory::MapPoint const&);
+    std::string (*text)(theory::Efficiency const&);
+    double (*number)(theory::Efficiency const&);
 };
 
-bool is_converged(theory::MapPoint const& a) {
+bool is_converged(theory::Efficiency const& a) {
     return a.outcome == theory::Outcome::periodic;
 }
 
-using Point = theory::MapPoint;
+using Point = theory::Efficiency;
 constexpr std::array<AnswerColumn, 5> answer_columns{{
     {"velocity_efficiency", "Velocity efficiency eta; infinite where the mass runs away",
      [](Point const& a) { return fmt::format("{}", a.velocity_efficiency); },
@@ -84,7 +84,7 @@ void check_columns(std::vector<InputColumn> const& columns, core::CsvReader cons
 }
 
 /// m/s; nothing when a point has no amplitude.
-std::optional<double> speed(theory::Inputs const& point, theory::MapPoint const& answer) {
+std::optional<double> speed(theory::Inputs const& point, theory::Efficiency const& answer) {
     auto const scale = point.velocity_scale();
     if (!scale) return {};
     return answer.velocity_efficiency * *scale;
@@ -160,7 +160,7 @@ TheoryPoints parse_theory_points(core::TextFile const& file) {
     return result;
 }
 
-std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::MapPoint> const& answers,
+std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::Efficiency> const& answers,
                                Motions const& motions) {
     std::string text;
     for (std::string const& name : table.names) text += name + ",";
@@ -191,7 +191,7 @@ std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::Ma
 }
 
 void write_theory_answers(std::filesystem::path const& path, TheoryPoints const& table,
-                          std::vector<theory::MapPoint> const& answers, Motions const& motions) {
+                          std::vector<theory::Efficiency> const& answers, Motions const& motions) {
     std::vector<TheoryColumn> columns;
     for (theory::Input const input : table.columns) {
         TheoryColumn column{std::string(theory::name_of(input)), units_of(input), "Input", {}, {}};
@@ -201,7 +201,7 @@ void write_theory_answers(std::filesystem::path const& path, TheoryPoints const&
     }
     for (AnswerColumn const& answer : answer_columns) {
         TheoryColumn column{answer.name, "1", answer.description, {}, {}};
-        for (theory::MapPoint const& point : answers) {
+        for (theory::Efficiency const& point : answers) {
             if (answer.number == nullptr) {
                 column.texts.push_back(answer.text(point));
             } else {

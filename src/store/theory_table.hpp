@@ -33,12 +33,12 @@ using Motions = std::vector<std::vector<theory::CoexistingMotion>>;
 /// half_width, mode, period_cycles, converged, and conveying_speed_m_per_s when a point has an amplitude.
 /// @param motions  of each point, from a MotionSurvey; empty when there was none. Then motions (their
 /// number), and efficiency_1, fraction_1 and period_cycles_1, efficiency_2 and so on follow.
-std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::MapPoint> const& answers,
+std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::Efficiency> const& answers,
                                Motions const& motions = {});
 
 /// Writes the same table as HDF5, one dataset per column. An input that a point does not have is NaN.
 /// @throws core::MissingError when it cannot be written
 void write_theory_answers(std::filesystem::path const& path, TheoryPoints const& table,
-                          std::vector<theory::MapPoint> const& answers, Motions const& motions = {});
+                          std::vector<theory::Efficiency> const& answers, Motions const& motions = {});
 
 }  // namespace vibrotrough::store

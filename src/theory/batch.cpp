@@ -42,7 +42,7 @@ BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs, std::option
                         std::size_t first, int starts) {
     static_cast<void>(PointSolver(rolling));  // its constants are checked once, not in a thread
     check_starts(starts, rolling);
-    BatchResult answer{std::vector<MapPoint>(inputs.size()), {}, 0};
+    BatchResult answer{std::vector<Efficiency>(inputs.size()), {}, 0};
     if (starts > 0) answer.motions.resize(inputs.size());
     FirstError first_error;
     tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
@@ -56,10 +56,10 @@ BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs, std::option
                     answer.points[i] = solver(inputs[i]);
                     if (starts > 0)
                         answer.motions[i] =
-                            survey(inputs[i].conveyor(), efficiency_of(answer.points[i]), starts);
+                            survey(inputs[i].conveyor(), answer.points[i], starts);
                 } catch (PhaseError const&) {
                     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-                    answer.points[i] = {unknown, unknown, 0, 0, Outcome::unsettled};
+                    answer.points[i] = {unknown, 0, 0, Outcome::unsettled, unknown};
                 } catch (std::invalid_argument const& error) {
                     first_error.note(i, error.what());
                 }

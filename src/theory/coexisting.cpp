@@ -1,7 +1,7 @@
 #include "theory/coexisting.hpp"
 
-#include "theory/detail/conveyor/check.hpp"
-#include "theory/detail/conveyor/solver.hpp"
+#include "theory/detail/ranges.hpp"
+#include "theory/detail/solver.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,7 @@ struct MotionSurvey::Memory {
 void MotionSurvey::Memory::note_zeros(std::size_t motion) {
     detail::NormalOrbit const& orbit = solver.orbit();
     after_zero.resize(orbit.left_at.size(), none);
-    if (!solver.waves().one_friction()) return;
+    if (!solver.forces().one_friction()) return;
     for (std::size_t i = 0; i < orbit.left_at.size(); ++i) {
         if (orbit.left_at[i] != none && after_zero[i] == none) after_zero[i] = motion;
     }
@@ -72,12 +72,12 @@ std::vector<CoexistingMotion> MotionSurvey::operator()(Conveyor const& conveyor,
     solver(conveyor, {}, Mean::left_out);
     if (standard.outcome == Outcome::indifferent) return found;
     memory_->note_zeros(0);
-    bool const one_friction = solver.waves().one_friction();
+    bool const one_friction = solver.forces().one_friction();
     // A mass that cannot rebound stays on a trough that never falls away from it.
-    if (one_friction && conveyor.restitution == 0 && solver.waves().presses().none()) return found;
+    if (one_friction && conveyor.restitution == 0 && solver.forces().presses().none()) return found;
     double const e = conveyor.restitution;
-    double const fastest = 2 * e / (1 - e) * solver.waves().vy().bound();
-    double const slip = 2 * solver.waves().vx().bound();
+    double const fastest = 2 * e / (1 - e) * solver.forces().vy().bound();
+    double const slip = 2 * solver.forces().vx().bound();
     for (int k = 1; k < starts; ++k) {
         MotionStart const start = start_number(k, fastest, slip);
         try {

@@ -1,12 +1,9 @@
 #include "theory/conveyor.hpp"
 
-#include "theory/detail/conveyor/check.hpp"
-#include "theory/detail/conveyor/model.hpp"
-#include "theory/detail/conveyor/solver.hpp"
-#include "theory/detail/plastic/orbit.hpp"
+#include "theory/detail/ranges.hpp"
+#include "theory/detail/solver.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace vibrotrough::theory {
 
@@ -19,20 +16,7 @@ EffectiveFriction effective_friction(Conveyor const& c) {
 
 ConveyorMotion solve(Conveyor const& conveyor) {
     detail::check_ranges(conveyor);
-    ConveyorMotion answer = detail::ConveyorSolver().motion(conveyor);
-    // Forces and energies are those of the conveyor itself, however weak they are.
-    answer.model = std::make_shared<ConveyorModel const>(conveyor);
-    return answer;
-}
-
-ConveyorMotion solve_plastic(Conveyor const& conveyor, Detail detail) {
-    ConveyorMotion answer;
-    detail::PlasticOrbit orbit = detail::solve_orbit(conveyor.point);
-    if (orbit.motion.outcome == Outcome::unsettled) return solve(conveyor);
-    if (detail == Detail::pieces && orbit.motion.converged) detail::add_pieces(orbit, answer);
-    answer.motion = std::move(orbit.motion);
-    answer.model = std::make_shared<ConveyorModel const>(conveyor);
-    return answer;
+    return detail::ConveyorSolver().motion(conveyor);
 }
 
 }  // namespace vibrotrough::theory

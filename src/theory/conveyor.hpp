@@ -31,18 +31,18 @@ enum class FlightStart {
 struct Conveyor {
     PointMass point;                ///< its `friction` is the kinetic friction coefficient mu
     double static_friction = 0;     ///< mu_s >= mu (Nedderman & Harding); 0: equal to the kinetic one
-    double restitution = 0;         ///< normal restitution coefficient e in [0, 0.99] (Eq. 23); the friction
+    double restitution = 0;         ///< normal restitution coefficient e in [0, 0.95] (Eq. 23); the friction
                                     ///< impulse is mu (1 + e) times the approach velocity
     double slowest_rebound = 1e-6;  ///< rebounds slower than this count as contact, in omega r sin(beta)
     /// Friction coefficient used instead of mu for the impulse of a landing (Eqs. 17, 18), >= 0. This
     /// parameter is not in the paper; validation/why_theory_fails describes what it can and cannot explain
     /// about layers.
-    std::optional<double> landing_friction;
-    double air_drag = 0;  ///< kappa >= 0: the drag force is m omega kappa times the velocity of the mass; the
+    std::optional<double> landing_friction = {};
+    double air_drag = 0;  ///< kappa, 0 or in [1e-8, 1000]: the drag force is m omega kappa times the velocity of the mass; the
                           ///< air is at rest
     double along_ratio = 1;  ///< elliptical drive: X = along_ratio sin(t + along_phase), Y = sin t
     double along_phase = 0;  ///< rad
-    std::vector<Harmonic> along, normal;  ///< harmonics of the acceleration of X and of Y
+    std::vector<Harmonic> along = {}, normal = {};  ///< harmonics of the acceleration of X and of Y
     double wall_friction = 0;  ///< friction coefficient between the layer and the two side walls, >= 0
     double wall_pressure_ratio = 0.5;  ///< Janssen's ratio k of horizontal to vertical stress, in [0, 1]
     double height_over_width = 0;      ///< H / W of the layer, >= 0
@@ -71,7 +71,9 @@ struct Impact {
     double along_before, along_after;  ///< along the trough, signed
 };
 
-class ConveyorModel;  // the analytic solution of each phase; see detail/conveyor/model.hpp
+namespace detail {
+class Forces;  // see detail/forces.hpp
+}
 
 /// A phase with all that is needed to evaluate the motion at any time within it.
 struct Piece {
@@ -89,7 +91,7 @@ struct ConveyorMotion {
     int cycles_followed = 0;      ///< number of cycles averaged over if no period was found
     std::vector<Piece> pieces;    ///< of one period, or of the (last) cycles followed if there is none
     std::vector<Impact> impacts;  ///< in the same time span as `pieces`
-    std::shared_ptr<ConveyorModel const> model;  ///< evaluates the pieces
+    std::shared_ptr<detail::Forces const> forces;  ///< on the mass, from which all within a piece follows
 };
 
 /// The long-term motion that develops from a start at rest on the trough at t = 0. This is the answer of
@@ -107,15 +109,5 @@ struct ConveyorMotion {
 /// @throws std::invalid_argument when an input is out of range
 /// @throws PhaseError when a phase cannot be solved
 ConveyorMotion solve(Conveyor const& conveyor);
-
-/// What is wanted of a motion.
-enum class Detail {
-    motion,  ///< efficiency, mode, phases and period
-    pieces,  ///< also the pieces and impacts, from which forces and energies follow
-};
-
-/// The same for Sloot & Kruyt's plastic point mass, for which solve(PointMass) finds periods of any length.
-/// @param conveyor  nothing beyond the plastic point mass is set
-ConveyorMotion solve_plastic(Conveyor const& conveyor, Detail detail);
 
 }  // namespace vibrotrough::theory

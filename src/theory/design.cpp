@@ -1,6 +1,6 @@
 #include "theory/design.hpp"
 
-#include "theory/detail/common/input_check.hpp"
+#include "theory/detail/ranges.hpp"
 #include "theory/map.hpp"
 #include "theory/tested_range.hpp"
 
@@ -27,11 +27,11 @@ Design design_at(DesignLimits const& l, Drive const& drive, PointSolver& solver)
     d.machine_number = drive.machine_number(l.gravity);
     d.throw_number = drive.throw_number(l.gravity);
     Inputs inputs;
-    inputs.set(Input::throw_number, std::min(d.throw_number, 1e4));
+    inputs.set(Input::throw_number, std::min(d.throw_number, largest_throw_number));
     inputs.set(Input::tan_vibration_angle, std::tan(drive.vibration_angle));
     inputs.set(Input::tan_inclination, std::tan(drive.inclination));
     inputs.set(Input::friction, l.friction);
-    MapPoint const e = solver(inputs);
+    Efficiency const e = solver(inputs);
     d.velocity_efficiency = e.velocity_efficiency;
     d.conveying_speed = e.velocity_efficiency * drive.trough_speed();
     d.mass_flow = l.bulk_density * l.layer_height * l.layer_width * d.conveying_speed;

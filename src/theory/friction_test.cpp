@@ -1,6 +1,6 @@
 #include "theory/friction_test.hpp"
 
-#include "theory/detail/common/input_check.hpp"
+#include "theory/detail/ranges.hpp"
 #include "theory/point_mass.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ double displacement_at(ShakeTest const& test, double friction) {
 /// mu for a displacement, limited to the ends of the possible range.
 double friction_at(ShakeTest const& test, double displacement) {
     double const slope = std::abs(test.tan_inclination);
-    double const lowest = slope * (1 + 1e-6) + 1e-7;
+    double const lowest = slope * (1 + 1e-6) + 1e-6;
     // With mu above K / cos(alpha) + |tan(alpha)| there is no slip.
     double const highest = test.machine_number * std::hypot(1, test.tan_inclination) + slope;
     auto const miss = [&](double mu) { return displacement_at(test, mu) - displacement; };

@@ -1,6 +1,6 @@
 #include "theory/limits.hpp"
 
-#include "theory/detail/common/input_check.hpp"
+#include "theory/detail/ranges.hpp"
 #include "theory/efficiency.hpp"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ double pn_machine_number(double friction) {
 Limits limits(double tan_vibration_angle, double tan_inclination, double friction) {
     double const whole = throw_number_of_flight(1);
     return {.whole_cycle_throw_number = whole,
-            .whole_cycle_efficiency = solve(PointMass{whole, 1e-9, 0, friction}).velocity_efficiency,
+            .whole_cycle_efficiency = std::sqrt(1 - 1 / (whole * whole)),  // cos(delta_F), after Eq. 19
             .best_throw_number_small_angle = best_throw_number_small_angle(),
             .best = best_throw_number(tan_vibration_angle, tan_inclination, friction),
             .small_angle_efficiency = small_angle_efficiency(tan_inclination, friction),

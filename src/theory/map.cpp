@@ -20,7 +20,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr int bisections = 30;          // of an edge of the grid: to 1e-9 of its length
+constexpr int bisections = 27;          // of an edge of the grid: to 1e-8 of its length
 constexpr int bisections_general = 12;  // for models that cost a thousand times more: to 2e-4 of it
 
 /// A chain of rebounds counts as one flight in a map, because the number of rebounds changes from point to
@@ -42,11 +42,11 @@ class Grid {
   public:
     Grid(Inputs const& fixed, Map& map) : fixed_(fixed), map_(map) {}
 
-    MapPoint solve(double x, double y, PointSolver& solver) const {
+    Efficiency solve(double x, double y, PointSolver& solver) const {
         Inputs inputs = fixed_;
         inputs.set(map_.x.input, x);
         inputs.set(map_.y.input, y);
-        MapPoint point = solver(inputs);
+        Efficiency point = solver(inputs);
         if (inputs.get(Input::restitution).value_or(0) > 0) point.mode = with_chains_joined(point.mode);
         return point;
     }
@@ -54,7 +54,7 @@ class Grid {
         return static_cast<std::size_t>(j) * static_cast<std::size_t>(map_.x.count) +
                static_cast<std::size_t>(i);
     }
-    MapPoint& at(int i, int j) const { return map_.points[number(i, j)]; }
+    Efficiency& at(int i, int j) const { return map_.points[number(i, j)]; }
     void solve_line(int line, bool along_y, int starts, PointSolver& solver) const {
         int const length = along_y ? map_.y.count : map_.x.count;
         MotionSurvey survey;
@@ -66,7 +66,7 @@ class Grid {
             Inputs inputs = fixed_;
             inputs.set(map_.x.input, x);
             inputs.set(map_.y.input, y);
-            map_.motions[number(i, j)] = survey(inputs.conveyor(), efficiency_of(at(i, j)), starts);
+            map_.motions[number(i, j)] = survey(inputs.conveyor(), at(i, j), starts);
         }
     }
     struct Crossing {
@@ -123,7 +123,7 @@ void Grid::locate_boundaries(int j, PointSolver& solver, SharedEdges& lower,
         auto const before = std::exchange(left, std::nullopt);
         bool periodic =
             true;  // modes with long periods or none change everywhere: do not draw boundaries there
-        for (MapPoint const* p : {&at(i, j), &at(i + 1, j), &at(i, j + 1), &at(i + 1, j + 1)}) {
+        for (Efficiency const* p : {&at(i, j), &at(i + 1, j), &at(i, j + 1), &at(i + 1, j + 1)}) {
             periodic = periodic && p->period_cycles >= 1 && p->period_cycles <= 2;
         }
         if (!periodic) continue;
@@ -175,22 +175,16 @@ PointSolver::PointSolver(std::optional<RollingLaw> const& rolling) {
     if (rolling) rolling_.emplace(*rolling);
 }
 
-MapPoint PointSolver::operator()(Inputs const& inputs) {
+Efficiency PointSolver::operator()(Inputs const& inputs) {
     if (rolling_) {
         if (!inputs.plastic()) {
             throw std::invalid_argument(
                 "the rolling-layer law has no restitution, static friction, drag, walls or other drive");
         }
         Motion const m = (*rolling_)(inputs.point()).motion;
-        return {m.velocity_efficiency, 0, mode_code(m), m.period_cycles, m.outcome};
+        return {m.velocity_efficiency, mode_code(m), m.period_cycles, m.outcome};
     }
-    Efficiency const e =
-        inputs.plastic() ? point_mass_(inputs.point()) : point_mass_.solve(inputs.conveyor());
-    return {e.velocity_efficiency, e.half_width, e.mode, e.period_cycles, e.outcome};
-}
-
-Efficiency efficiency_of(MapPoint const& point) {
-    return {point.velocity_efficiency, point.mode, point.period_cycles, point.outcome, point.half_width};
+    return point_mass_.solve(inputs.conveyor());
 }
 
 void check_starts(int starts, std::optional<RollingLaw> const& rolling) {
@@ -202,8 +196,8 @@ void check_starts(int starts, std::optional<RollingLaw> const& rolling) {
 
 namespace {
 
-constexpr MapPoint withheld{std::numeric_limits<double>::quiet_NaN(),
-                            std::numeric_limits<double>::quiet_NaN(), 0, 0, Outcome::unsettled};
+constexpr Efficiency withheld{std::numeric_limits<double>::quiet_NaN(), 0, 0, Outcome::unsettled,
+                              std::numeric_limits<double>::quiet_NaN()};
 
 Inputs at_place(Inputs inputs, Map const& map, double x, double y) {
     inputs.set(map.x.input, x);
@@ -213,7 +207,7 @@ Inputs at_place(Inputs inputs, Map const& map, double x, double y) {
 
 }  // namespace
 
-std::size_t withhold_untested(std::vector<Inputs> const& inputs, std::vector<MapPoint>& points) {
+std::size_t withhold_untested(std::vector<Inputs> const& inputs, std::vector<Efficiency>& points) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         if (!outside_tested_range(inputs[i].point())) continue;
@@ -283,7 +277,7 @@ Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOption
 std::size_t count_modes(Map const& map) {
     std::set<ModeCode> modes;
     ModeCode last = ~ModeCode{0};  // neighbours mostly have the same mode
-    for (MapPoint const& point : map.points) {
+    for (Efficiency const& point : map.points) {
         if (point.mode != last) modes.insert(point.mode);
         last = point.mode;
     }

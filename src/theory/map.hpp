@@ -21,17 +21,8 @@ struct MapAxis {
     double value(int i) const { return count < 2 ? from : from + (to - from) * i / (count - 1); }
 };
 
-/// The motion at one point of a map.
-struct MapPoint {
-    double velocity_efficiency;  ///< eta, as in Motion
-    double half_width;           ///< of the confidence interval of eta; 0 when periodic
-    ModeCode mode;               ///< phases of one period; 0 when the motion does not settle
-    int period_cycles;           ///< cycles after which the motion repeats; 0 when it does not settle
-    Outcome outcome;             ///< how the long run ends
-};
-
 /// A segment of the boundary between two modes within one cell of the map; its end points are roots, known to
-/// 1e-9 of a cell.
+/// 1e-8 of a cell.
 struct BoundaryPiece {
     double x0, y0, x1, y1;    ///< its two ends, in the units of the axes
     ModeCode mode_a, mode_b;  ///< the modes on its two sides
@@ -40,7 +31,7 @@ struct BoundaryPiece {
 /// Velocity efficiency and mode over a grid of two inputs.
 struct Map {
     MapAxis x, y;                  ///< the two inputs
-    std::vector<MapPoint> points;  ///< points[j * x.count + i]
+    std::vector<Efficiency> points;  ///< points[j * x.count + i]
     /// The motions of each point to which different starts lead; empty when not asked for.
     std::vector<std::vector<CoexistingMotion>> motions;
     std::vector<BoundaryPiece> boundaries;  ///< boundaries between modes; empty unless requested
@@ -62,7 +53,7 @@ struct MapOptions {
 /// Velocity efficiency and mode on a grid of two inputs with the others fixed (Figs 2-5 of the paper).
 ///
 /// Point masses and conveyors are solved by EfficiencySolver. The boundary between two modes is located by
-/// bisection along every edge of the grid whose end points differ in mode, to 1e-9 of the edge (2e-4 for
+/// bisection along every edge of the grid whose end points differ in mode, to 1e-8 of the edge (2e-4 for
 /// models other than the plastic point mass), if the period is one or two cycles. A chain of rebounds counts
 /// as one flight in a map.
 ///
@@ -82,15 +73,12 @@ class PointSolver {
 
     /// @throws std::invalid_argument when the inputs are incomplete, out of range, or extend the point mass
     /// of a rolling layer; PhaseError when the point cannot be solved
-    MapPoint operator()(Inputs const& inputs);
+    Efficiency operator()(Inputs const& inputs);
 
   private:
     EfficiencySolver point_mass_;
     std::optional<RollingLayerSolver> rolling_;
 };
-
-/// The efficiency of a point with what belongs to it.
-Efficiency efficiency_of(MapPoint const& point);
 
 /// @throws std::invalid_argument for a negative number of starts, and for starts with a law: a survey is of
 /// point masses
@@ -99,7 +87,7 @@ void check_starts(int starts, std::optional<RollingLaw> const& rolling);
 /// Replaces the efficiencies at which the rolling-layer law has not been tested by NaN, and the modes by
 /// none.
 /// @return how many points these are
-std::size_t withhold_untested(std::vector<Inputs> const& inputs, std::vector<MapPoint>& points);
+std::size_t withhold_untested(std::vector<Inputs> const& inputs, std::vector<Efficiency>& points);
 
 /// The same for the points of a map, whose boundaries outside the tested range are removed.
 std::size_t withhold_untested(Inputs const& fixed, Map& map);

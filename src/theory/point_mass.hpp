@@ -23,13 +23,15 @@ struct Phase {
     double relative_displacement;  ///< of the mass relative to the trough, in r cos(beta)
 };
 
+inline constexpr double largest_throw_number = 100;  ///< No trough comes near it.
+
 /// The inputs of Sloot & Kruyt's point mass (Powder Technology 87, 1996, 203-210) with perfectly plastic
 /// landing.
 struct PointMass {
-    double throw_number;         ///< Gamma = omega^2 r sin(beta) / (g cos(alpha)), in (0, 1e4]
+    double throw_number;         ///< Gamma = omega^2 r sin(beta) / (g cos(alpha)), in (0, 100]
     double tan_vibration_angle;  ///< tan(beta), in (0, 1e6]
     double tan_inclination = 0;  ///< tan(alpha), uphill positive in the conveying direction, |.| <= 1e6
-    double friction;             ///< mu, in [0, 1e6]
+    double friction;             ///< mu, 0 or in [1e-6, 1e6]
 };
 
 /// What the motion does in the long run.

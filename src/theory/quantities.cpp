@@ -1,12 +1,11 @@
 #include "theory/quantities.hpp"
 
-#include "theory/detail/common/input_check.hpp"
-#include "theory/detail/common/instant.hpp"
-#include "theory/detail/conveyor/model.hpp"
+#include "theory/detail/ranges.hpp"
+#include "theory/detail/instant.hpp"
+#include "theory/detail/phases.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -15,61 +14,78 @@
 namespace vibrotrough::theory {
 namespace {
 
+using detail::Forces;
+using detail::Instant;
 using detail::two_pi;
 
-/// A piece of a motion with its velocities as functions of time.
+/// A piece of a motion as a function of time.
 class PieceMotion {
   public:
-    PieceMotion(ConveyorModel const& model, Piece const& piece)
-        : model_(model), piece_(piece), x_(velocity_x()), y_(velocity_y()) {}
+    PieceMotion(Forces const& forces, Piece const& piece)
+        : forces_(forces),
+          piece_(piece),
+          from_(Instant::at(piece.start)),
+          v0_(piece.along_velocity - forces.vx()(from_)),
+          sign_(slides_forwards(piece.kind) ? 1 : -1),
+          slide_(forces.slide(sign_), forces.drag(), sign_ * v0_, from_),
+          flight_(forces, from_, piece.gap, piece.gap_rate) {}
 
     bool flies() const { return piece_.kind == PhaseKind::flight; }
     bool rests() const { return piece_.kind == PhaseKind::rest; }
-    double vx(double t) const { return rests() ? model_.trough_vx(t) : x_(t); }
-    double vy(double t) const { return flies() ? y_(t) : model_.trough_vy(t); }
-    double slip(double t) const { return vx(t) - model_.trough_vx(t); }
-    double moved(double t) const {
-        return rests() ? 0 : x_.travel(t) - (model_.trough_x(t) - model_.trough_x(piece_.start));
+    double vx(Instant const& at) const { return forces_.vx()(at) + slip(at); }
+    double vy(Instant const& at) const {
+        return forces_.vy()(at) + (flies() ? flight_.rate(at, flight_.decayed(at.t)) : 0);
     }
-    double gap(double t) const {
-        if (!flies()) return 0;
-        return piece_.gap + y_.travel(t) - (model_.trough_y(t) - model_.trough_y(piece_.start));
+    double slip(Instant const& at) const {
+        if (rests()) return 0;
+        if (!flies()) return sign_ * slide_.speed(at, slide_.decayed(at.t));
+        detail::Leap const leap = leap_to(at);
+        return v0_ * leap.decay + leap.push;
     }
-    double normal_force(double t) const { return flies() ? 0 : std::max(model_.normal_force(t), 0.0); }
-    double tangential_force(double t) const {
+    double moved(Instant const& at) const {
+        if (rests()) return 0;
+        if (!flies()) return sign_ * slide_.moved(at, slide_.decayed(at.t));
+        detail::Leap const leap = leap_to(at);
+        return v0_ * leap.reach + leap.drift;
+    }
+    double gap(Instant const& at) const {
+        return flies() ? std::max(flight_.gap(at, flight_.decayed(at.t)), 0.0) : 0;
+    }
+    double normal_force(Instant const& at) const {
+        return flies() ? 0 : std::max(forces_.normal_force()(at), 0.0);
+    }
+    double tangential_force(Instant const& at) const {
         if (flies()) return 0;
-        return rests() ? model_.needed_friction(t) : -sign() * model_.kinetic_tangent() * normal_force(t);
+        return rests() ? forces_.needed_friction()(at)
+                       : -sign_ * forces_.kinetic_tangent() * normal_force(at);
     }
 
   private:
-    double sign() const {
-        bool const forward = piece_.kind == PhaseKind::positive_slide ||
-                             piece_.kind == PhaseKind::positive_slide_after_landing;
-        return forward ? 1 : -1;
+    static bool slides_forwards(PhaseKind kind) {
+        return kind == PhaseKind::positive_slide || kind == PhaseKind::positive_slide_after_landing;
     }
-    DrivenVelocity velocity_x() const {
-        double const u = piece_.along_velocity;
-        if (flies()) return model_.flight_velocity_x(piece_.start, u);
-        return model_.slide_velocity(sign(), piece_.start, u);
-    }
-    DrivenVelocity velocity_y() const {
-        return model_.flight_velocity_y(piece_.start, model_.trough_vy(piece_.start) + piece_.gap_rate);
+    detail::Leap leap_to(Instant const& at) const {
+        return detail::leap(forces_, from_, at, flight_.decayed(at.t));
     }
 
-    ConveyorModel const& model_;
-    Piece piece_;
-    DrivenVelocity x_, y_;
+    Forces const& forces_;
+    Piece const& piece_;
+    Instant from_;
+    double v0_, sign_;  // slip velocity at the start, and its direction in a slide
+    detail::SlideMotion slide_;
+    detail::Ballistic flight_;
 };
 
-/// The integral over a piece by Gauss quadrature on intervals of at most a quarter period of the highest
-/// harmonic.
-double integral(Piece const& piece, double stretch, std::function<double(double)> const& f) {
+/// The integral over a piece by Gauss quadrature on intervals of at most `stretch`.
+template <class Function>
+double integral(Piece const& piece, double stretch, Function const& f) {
     int const parts = std::max(1, static_cast<int>(std::ceil((piece.end - piece.start) / stretch)));
+    double const length = (piece.end - piece.start) / parts;
     double sum = 0;
     for (int i = 0; i < parts; ++i) {
-        double const a = piece.start + (piece.end - piece.start) * i / parts;
-        double const b = piece.start + (piece.end - piece.start) * (i + 1) / parts;
-        sum += boost::math::quadrature::gauss<double, 15>::integrate(f, a, b);
+        double const from = piece.start + length * i;
+        sum += boost::math::quadrature::gauss<double, 15>::integrate(
+            [&](double t) { return f(Instant::at(t)); }, from, from + length);
     }
     return sum;
 }
@@ -101,55 +117,84 @@ Weights weights(Conveyor const& conveyor) {
     return {1 / (1 + b * b), b * b / (1 + b * b)};
 }
 
-struct Forces {
-    double normal, tangential;
+/// The largest forces in contact, per mass.
+struct LargestForces {
+    double normal = 0, tangential = 0;
 };
 
 /// The maximum of f over a piece: the largest of equal steps, and then the highest point beside it.
-double largest(Piece const& piece, double step, std::function<double(double)> const& f) {
+template <class Function>
+double largest(Piece const& piece, double step, Function const& f) {
+    auto const at = [&](double t) { return f(Instant::at(t)); };
     int const parts = std::max(1, static_cast<int>(std::ceil((piece.end - piece.start) / step)));
     double const width = (piece.end - piece.start) / parts;
-    double best = piece.start, most = f(best);
+    double best = piece.start, most = at(best);
     for (int i = 1; i <= parts; ++i) {
-        double const t = piece.start + width * i, value = f(t);
+        double const t = piece.start + width * i, value = at(t);
         if (value > most) best = t, most = value;
     }
-    auto const found = boost::math::tools::brent_find_minima([&](double t) { return -f(t); },
+    auto const found = boost::math::tools::brent_find_minima([&](double t) { return -at(t); },
                                                              std::max(best - width, piece.start),
                                                              std::min(best + width, piece.end), 26);
     return std::max(most, -found.second);
 }
 
-/// The largest forces in contact. Every piece is looked at, because the contacts may be a small part of a
-/// period.
-Forces largest_forces(ConveyorMotion const& motion) {
-    double const step = shortest_stretch(motion.model->conveyor()) / 20;
-    Forces most{};
+/// Every piece is looked at, because the contacts may be a small part of a period.
+LargestForces largest_forces(ConveyorMotion const& motion) {
+    double const step = shortest_stretch(motion.forces->conveyor()) / 20;
+    LargestForces most;
     for (Piece const& piece : motion.pieces) {
-        PieceMotion const m(*motion.model, piece);
+        PieceMotion const m(*motion.forces, piece);
         if (m.flies()) continue;
-        auto const most_of = [&](auto const& force) { return largest(piece, step, force); };
-        most.normal = std::max(most.normal, most_of([&](double t) { return m.normal_force(t); }));
-        most.tangential =
-            std::max(most.tangential, most_of([&](double t) { return std::abs(m.tangential_force(t)); }));
+        auto const normal = [&](Instant const& at) { return m.normal_force(at); };
+        auto const tangential = [&](Instant const& at) { return std::abs(m.tangential_force(at)); };
+        most.normal = std::max(most.normal, largest(piece, step, normal));
+        most.tangential = std::max(most.tangential, largest(piece, step, tangential));
     }
     return most;
 }
 
-TraceSample sample_of(ConveyorModel const& model, Piece const& piece, double t, double before) {
-    PieceMotion const m(model, piece);
+/// The energies of a motion but for the work of the trough, not per cycle.
+EnergyBalance losses_of(ConveyorMotion const& motion) {
+    require_pieces(motion);
+    Forces const& forces = *motion.forces;
+    auto const [along, normal] = weights(forces.conveyor());
+    double const stretch = shortest_stretch(forces.conveyor()), drag = forces.drag();
+    EnergyBalance sum{};
+    for (Piece const& piece : motion.pieces) {
+        PieceMotion const m(forces, piece);
+        auto const friction = [&](Instant const& at) { return -m.tangential_force(at) * m.slip(at); };
+        auto const drawn = [&](Instant const& at) {
+            double const vx = m.vx(at), vy = m.vy(at);
+            return along * vx * vx + normal * vy * vy;
+        };
+        if (!m.flies() && !m.rests()) sum.friction_loss += along * integral(piece, stretch, friction);
+        // In flight the velocity changes by the drag only, within 1 / kappa; a flight may last many cycles.
+        if (drag > 0) sum.drag_loss += drag * integral(piece, m.flies() ? 2 / drag : stretch, drawn);
+        sum.lift += along * forces.gravity() * piece.displacement;
+    }
+    for (Impact const& i : motion.impacts) {
+        sum.impact_loss += normal * (i.approach * i.approach - i.rebound * i.rebound) / 2 +
+                           along * (i.along_before * i.along_before - i.along_after * i.along_after) / 2;
+    }
+    return sum;
+}
+
+TraceSample sample_of(Forces const& forces, Piece const& piece, double t, double before) {
+    PieceMotion const m(forces, piece);
+    Instant const at = Instant::at(t);
     return {t,
             piece.kind,
-            model.trough_vx(t),
-            model.trough_vy(t),
-            m.vx(t),
-            m.vy(t),
-            model.trough_ax(t),
-            model.trough_ay(t),
-            before + m.moved(t),
-            std::max(m.gap(t), 0.0),
-            m.normal_force(t),
-            m.tangential_force(t)};
+            forces.vx()(at),
+            forces.vy()(at),
+            m.vx(at),
+            m.vy(at),
+            forces.vx().rate(at),
+            forces.vy().rate(at),
+            before + m.moved(at),
+            m.gap(at),
+            m.normal_force(at),
+            m.tangential_force(at)};
 }
 
 }  // namespace
@@ -165,7 +210,7 @@ std::vector<TraceSample> trace(ConveyorMotion const& motion, int count) {
         double const t = start + i * step;
         while (p + 1 < motion.pieces.size() && t >= motion.pieces[p].end)
             before += motion.pieces[p++].displacement;
-        samples.push_back(sample_of(*motion.model, motion.pieces[p], t, before));
+        samples.push_back(sample_of(*motion.forces, motion.pieces[p], t, before));
     }
     return samples;
 }
@@ -184,49 +229,44 @@ TraceSample sample(ConveyorMotion const& motion, double t) {
         }
         travel += piece.displacement;
     }
-    TraceSample found = sample_of(*motion.model, *current, within, periods * travel + before);
+    TraceSample found = sample_of(*motion.forces, *current, within, periods * travel + before);
     found.t = t;
     return found;
 }
 
 EnergyBalance energy_balance(ConveyorMotion const& motion) {
-    require_pieces(motion);
-    ConveyorModel const& model = *motion.model;
-    Weights const weight = weights(model.conveyor());
-    double const along = weight.along, normal = weight.normal;
-    double const stretch = shortest_stretch(model.conveyor());
-    EnergyBalance sum{};
+    EnergyBalance sum = losses_of(motion);
+    Forces const& forces = *motion.forces;
+    auto const [along, normal] = weights(forces.conveyor());
     for (Piece const& piece : motion.pieces) {
-        PieceMotion const m(model, piece);
-        // In flight the velocity changes by the drag only, within 1 / kappa; a flight may last many cycles.
-        double const step = m.flies() ? 2 / model.drag() : stretch;
-        auto const over = [&](auto const& f) { return integral(piece, step, f); };
-        if (!m.flies()) {
-            sum.trough_work += over([&](double t) {
-                return along * m.tangential_force(t) * model.trough_vx(t) +
-                       normal * m.normal_force(t) * model.trough_vy(t);
-            });
-            sum.friction_loss += over([&](double t) { return -along * m.tangential_force(t) * m.slip(t); });
-        }
-        if (model.drag() > 0) {
-            sum.drag_loss += model.drag() * over([&](double t) {
-                                 return along * m.vx(t) * m.vx(t) + normal * m.vy(t) * m.vy(t);
-                             });
-        }
-        sum.lift += along * model.gravity() * piece.displacement;
+        PieceMotion const m(forces, piece);
+        if (m.flies()) continue;
+        auto const work = [&](Instant const& at) {
+            return along * m.tangential_force(at) * forces.vx()(at) +
+                   normal * m.normal_force(at) * forces.vy()(at);
+        };
+        sum.trough_work += integral(piece, shortest_stretch(forces.conveyor()), work);
     }
-    for (Impact const& impact : motion.impacts) {
-        double const pushed = impact.approach + impact.rebound,
-                     dragged = impact.along_after - impact.along_before;
-        sum.trough_work +=
-            normal * pushed * model.trough_vy(impact.t) + along * dragged * model.trough_vx(impact.t);
-        sum.impact_loss +=
-            normal * (impact.approach * impact.approach - impact.rebound * impact.rebound) / 2 +
-            along * (impact.along_before * impact.along_before - impact.along_after * impact.along_after) / 2;
+    for (Impact const& i : motion.impacts) {
+        Instant const at = Instant::at(i.t);
+        sum.trough_work += normal * (i.approach + i.rebound) * forces.vy()(at) +
+                           along * (i.along_after - i.along_before) * forces.vx()(at);
     }
     double const cycles = duration(motion) / two_pi;
     return {sum.trough_work / cycles, sum.friction_loss / cycles, sum.impact_loss / cycles,
             sum.drag_loss / cycles, sum.lift / cycles};
+}
+
+ImpactAndPower impact_and_power(ConveyorMotion const& motion, Machine const& machine) {
+    EnergyBalance const lost = losses_of(motion);
+    PointMass const& point = motion.forces->conveyor().point;
+    double const omega = angular_frequency(point, machine), speed = omega * machine.amplitude;
+    auto const [along, normal] = weights(motion.forces->conveyor());
+    double hardest = 0;  // squared, in (omega r)^2
+    for (Impact const& i : motion.impacts)
+        hardest = std::max(hardest, normal * i.approach * i.approach + along * i.along_before * i.along_before);
+    double const work = lost.friction_loss + lost.impact_loss + lost.drag_loss + lost.lift;
+    return {std::sqrt(hardest) * speed, work * speed * speed * omega / duration(motion)};
 }
 
 double angular_frequency(PointMass const& point, Machine const& machine) {
@@ -239,7 +279,7 @@ double angular_frequency(PointMass const& point, Machine const& machine) {
 
 EngineerQuantities engineer_quantities(ConveyorMotion const& motion, Machine const& machine) {
     require_pieces(motion);
-    Conveyor const& conveyor = motion.model->conveyor();
+    Conveyor const& conveyor = motion.forces->conveyor();
     EngineerQuantities q{};
     q.angular_frequency = angular_frequency(conveyor.point, machine);
     q.frequency = q.angular_frequency / two_pi;

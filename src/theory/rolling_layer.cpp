@@ -1,8 +1,6 @@
 #include "theory/rolling_layer.hpp"
 
-#include "theory/detail/common/first_zero.hpp"
-#include "theory/detail/common/input_check.hpp"
-#include "theory/detail/plastic/flight.hpp"
+#include "theory/detail/ranges.hpp"
 #include "theory/detail/rolling/search.hpp"
 #include "theory/detail/rolling/walk.hpp"
 
@@ -14,6 +12,7 @@
 namespace vibrotrough::theory {
 namespace {
 
+using detail::Instant;
 using detail::RollingNormal;
 using detail::RollingSearch;
 using detail::RollingWalk;
@@ -61,18 +60,18 @@ PhaseKind kind_of(double velocity, bool contact, bool landed) {
 /// Collects the phases of the layer: rolling and slipping parts with the same direction are one slide.
 class PhaseList {
   public:
-    void add(RollingWalk const& walk, RollingPhase const& p) {
+    void add(RollingPhase const& p) {
+        auto const travelled = [&](double t) { return p.v.integral(p.basis, Instant::at(p.start), p.basis.at(t)); };
         if (!p.contact) {
-            append(PhaseKind::flight, p.start, p.end, walk.velocity(p).travel(p.end));
+            append(PhaseKind::flight, p.start, p.end, travelled(p.end));
             landed_ = true;
             return;
         }
-        detail::Relaxation const v = walk.velocity(p);
         double t = p.start;
         while (t < p.end) {
-            double const middle_sign = sign_after(v, t, p.end);
-            double const to = middle_sign == 0 ? p.end : zero_after(v, middle_sign, t, p.end);
-            append(kind_of(middle_sign, true, landed_), t, to, v.travel(to) - v.travel(t));
+            double const sign = sign_after(p, t);
+            double const to = sign == 0 ? p.end : zero_after(p, sign, t);
+            append(kind_of(sign, true, landed_), t, to, travelled(to) - travelled(t));
             t = to;
         }
     }
@@ -80,21 +79,16 @@ class PhaseList {
 
   private:
     /// The sign of v just after t.
-    static double sign_after(detail::Relaxation const& v, double t, double end) {
-        auto const a = v.at(t);
-        if (std::abs(a.value) > 1e-12) return a.value;
-        double const later = v(t + std::min(1e-6, (end - t) / 2));
+    static double sign_after(RollingPhase const& p, double t) {
+        double const now = p.v(p.basis.at(t));
+        if (std::abs(now) > 1e-12) return now;
+        double const later = p.v(p.basis.at(t + std::min(1e-6, (p.end - t) / 2)));
         return std::abs(later) > 1e-15 ? later : 0;
     }
-    static double zero_after(detail::Relaxation const& v, double sign, double t, double end) {
-        double const s = sign > 0 ? 1 : -1;
-        double const from = std::min(t + 1e-7, end);
-        return detail::first_zero(
-            [&](double at) {
-                auto const a = v.at(at);
-                return detail::Sample{.value = s * a.value, .rate = s * a.rate, .bend = a.bend};
-            },
-            from, end);
+    static double zero_after(RollingPhase const& p, double sign, double t) {
+        int which = -1;
+        detail::Margin const remains(detail::PhaseSum{}.add(std::copysign(1.0, sign), p.v));
+        return detail::first_end<1>({remains}, p.basis, std::min(t + 1e-7, p.end), p.end, which);
     }
     void append(PhaseKind kind, double start, double end, double moved) {
         bool const same = !phases_.empty() && phases_.back().kind == kind;
@@ -231,7 +225,7 @@ RollingMotion RollingLayerSolver::Memory::solve(PointMass const& point) {
     period->start = normal.pieces.front().start;
     period->end = normal.pieces.back().end;
     PhaseList list;
-    for (RollingPhase const& p : period->phases) list.add(walk, p);
+    for (RollingPhase const& p : period->phases) list.add(p);
     describe(answer.motion, std::move(list).take(), normal.cycles);
     answer.period = std::move(period);
     return answer;
@@ -269,16 +263,15 @@ std::vector<RollingSample> trace(RollingMotion const& motion, int count) {
         double const t = period.start + (period.end - period.start) * k / (count - 1);
         while (i + 1 < period.phases.size() && t >= period.phases[i].end) ++i;
         RollingPhase const& p = period.phases[i];
-        double const v = walk.velocity(p)(t);
-        auto const [gap, gap_rate] =
-            detail::gap_at(p.normal, t, period.layer.point.throw_number, period.layer.law);
+        detail::PhaseTime const at = p.basis.at(t), in_piece = p.normal.basis.at(t);
+        detail::PhaseSum const gap_rate = p.normal.gap.derivative(p.normal.basis);
         samples.push_back({.t = t,
-                           .kind = kind_of(v, p.contact, false),
-                           .velocity = v,
-                           .spin = p.contact && p.turn == 0 ? 0 : walk.spin(p)(t),
-                           .gap = gap,
-                           .gap_rate = gap_rate,
-                           .normal_force = p.contact ? p.normal.force(t) : 0,
+                           .kind = kind_of(p.v(at), p.contact, false),
+                           .velocity = p.v(at),
+                           .spin = p.w(at),
+                           .gap = p.normal.gap(in_piece),
+                           .gap_rate = gap_rate(in_piece),
+                           .normal_force = p.n(at),
                            .tangential_force = walk.friction_force(p, t)});
     }
     return samples;

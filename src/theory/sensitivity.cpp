@@ -12,7 +12,7 @@ namespace {
 constexpr double relative_step = 1e-5;
 
 double efficiency(Inputs const& inputs, PointSolver& solver) {
-    MapPoint const point = solver(inputs);
+    Efficiency const point = solver(inputs);
     if (point.outcome != Outcome::periodic) {
         throw std::invalid_argument("sensitivities cannot be computed: " + to_string(point.outcome));
     }

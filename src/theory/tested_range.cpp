@@ -1,6 +1,6 @@
 #include "theory/tested_range.hpp"
 
-#include "theory/detail/common/input_check.hpp"
+#include "theory/detail/ranges.hpp"
 
 #include <algorithm>
 #include <array>

@@ -46,7 +46,7 @@ void write_theory_image(std::filesystem::path const& path, theory::Map const& ma
     std::vector<theory::ModeCode> modes{0};
     std::map<theory::ModeCode, int> numbers{{0, 0}};
     vtkIdType i = 0;
-    for (theory::MapPoint const& point : map.points) {
+    for (theory::Efficiency const& point : map.points) {
         double const eta = point.velocity_efficiency;
         efficiency->SetValue(i, std::isfinite(eta) ? eta : std::numeric_limits<double>::quiet_NaN());
         auto const [number, is_new] = numbers.try_emplace(point.mode, static_cast<int>(modes.size()));

@@ -106,7 +106,7 @@ RC_GTEST_PROP(RiskDesign, BreaksNoLimitAtAnyFriction, ()) {
         if (m.throw_number() <= 1) continue;
         theory::Conveyor conveyor{};
         conveyor.point = point_of(m, mu);
-        auto const motion = theory::solve_plastic(conveyor, theory::Detail::pieces);
+        auto const motion = theory::solve(conveyor);
         RC_PRE(motion.motion.converged);
         double const speed = theory::engineer_quantities(motion, {m.amplitude}).impact_speed;
         RC_ASSERT(speed <= d.landing_speed * (1 + 1e-5));

@@ -1,5 +1,5 @@
 #include "theory/conveyor.hpp"
-#include "theory/detail/conveyor/wave.hpp"
+#include "theory/detail/wave.hpp"
 #include "theory/efficiency.hpp"
 #include "walked_motion.hpp"
 
@@ -130,8 +130,8 @@ TEST(ConveyorEfficiency, KnowsTheMeanWithoutAPeriod) {
 }
 
 // Where rounding decides whether a period counts (one motion in fifteen here), both solvers compare two
-// periods with rounding errors of their own, and also say which motions have none. Tolerance: periodic
-// motions are known to 1e-9. Two of 150 are allowed to repeat to just below 1e-9 in one solver and to just
+// periods with rounding errors of their own, and also say which motions have none. Tolerance: each solver
+// knows a periodic motion to 1e-9. Two of 150 are allowed to repeat to just below 1e-9 in one solver and to just
 // above it in the other; the efficiency of the one is then within the interval of the other. Means are not
 // compared here: where rounding decides what follows a contact, they are means over the rounding errors of
 // each solver.
@@ -154,7 +154,7 @@ TEST(ConveyorEfficiency, AgreesWithTheWalkWhichMotionsHaveAPeriod) {
         }
         EXPECT_EQ(fast.period_cycles, motion.period_cycles) << i;
         if (motion.outcome == Outcome::periodic) {
-            EXPECT_NEAR(fast.velocity_efficiency, motion.velocity_efficiency, 1e-9) << i;
+            EXPECT_NEAR(fast.velocity_efficiency, motion.velocity_efficiency, 2e-9) << i;
         }
         without += motion.outcome == Outcome::unsettled ? 1 : 0;
     }

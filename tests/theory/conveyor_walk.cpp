@@ -1,7 +1,7 @@
 #include "conveyor_walk.hpp"
 
-#include "theory/detail/common/first_zero.hpp"
-#include "theory/detail/common/instant.hpp"
+#include "first_zero.hpp"
+#include "theory/detail/instant.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,21 +13,11 @@ namespace {
 using detail::first_zero;
 using detail::Sample;
 using detail::slide_kind;
-using detail::Term;
-using detail::Trigonometric;
 
 constexpr double shortest_piece = 1e-12;  // rad; shorter pieces are rounding errors
 constexpr double rounding = 1e-13;        // of forces
 constexpr int most_events = 2000000;
 constexpr double drag_reach = 1;  // rad: the distance within which the bounds on drag below hold
-
-/// The position of the trough along or normal to itself.
-Trigonometric trough(double ratio, double phase, std::vector<Harmonic> const& harmonics) {
-    std::vector<Term> terms{{1, ratio, phase}};
-    for (Harmonic const& h : harmonics)
-        terms.push_back({static_cast<double>(h.order), h.amplitude / h.order / h.order, h.phase});
-    return Trigonometric(std::move(terms));
-}
 
 void keep_piece(Passage& passage, Walk::Keep keep, Piece const& piece) {
     passage.displacement += piece.displacement;

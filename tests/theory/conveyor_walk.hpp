@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/detail/conveyor/model.hpp"
+#include "conveyor_model.hpp"
 
 #include <vector>
 
@@ -33,9 +33,9 @@ class WalkModel : public ConveyorModel {
   private:
     struct Shifted {
         double constant = 0;
-        detail::Trigonometric sum;
+        Trigonometric sum;
     };
-    detail::Trigonometric normal_, needed_;
+    Trigonometric normal_, needed_;
     Shifted hold_positive_, hold_negative_, drive_positive_, drive_negative_;
     double landing_, vx_bound_, normal_bend_, hold_bend_, fall_bound_;
 };

@@ -54,7 +54,7 @@ TEST(ExtremeInputs, HaveTheMotionThatTheWalkFinds) {
                 c.air_drag = random.over_decades(10, 1e3);
                 break;
             case 4:
-                c.air_drag = random.over_decades(1e-16, 1e-5);
+                c.air_drag = random.over_decades(1e-8, 1e-5);
                 break;
             case 5:
                 c.landing_friction = random.over_decades(10, 1e6);
@@ -77,37 +77,14 @@ TEST(ExtremeInputs, HaveTheMotionThatTheWalkFinds) {
     EXPECT_GT(compared, 350);
 }
 
-// Of a vibration angle that vanishes at a given throw number only the ratios of the forces along the trough
-// are left, also where static friction is larger than kinetic friction. eta approaches its limit linearly;
-// tolerance: the forces are made 5e-9 at least, and the error of rounding beside them.
-TEST(ExtremeInputs, HaveTheLimitOfWeakForces) {
-    Random random(2);
-    EfficiencySolver solver;
-    for (int i = 0; i < 40; ++i) {
-        Conveyor c = usual(random);
-        c.static_friction = 1.5 * c.point.friction;
-        c.landing_friction = random.between(0, 2) * c.point.friction;
-        auto const at = [&](double tangent) {
-            c.point.tan_vibration_angle = tangent;
-            return solver.solve(c);
-        };
-        Efficiency const near = at(1e-5), limit = at(1e-12);
-        EXPECT_EQ(near.outcome, limit.outcome) << i;
-        if (limit.outcome != Outcome::periodic) continue;
-        EXPECT_NEAR(near.velocity_efficiency, limit.velocity_efficiency,
-                    1e-3 * (1 + std::abs(limit.velocity_efficiency)))
-            << i;
-    }
-}
-
-// A plastic mass that flies for up to thousands of cycles, beside another simulator over a hundred flights.
+// A plastic mass that flies for up to thirty cycles, beside another simulator over a hundred flights.
 // Tolerance: a part of a period at both ends of a mean.
 TEST(ExtremeInputs, OfLongFlights) {
     Random random(3);
     int periodic = 0;
     for (int i = 0; i < 30; ++i) {
         Conveyor c = usual(random);
-        c.point.throw_number = random.over_decades(50, 1e4);
+        c.point.throw_number = random.over_decades(20, 100);
         Efficiency const found = EfficiencySolver().solve(c);
         if (found.outcome != Outcome::periodic) continue;
         ++periodic;
@@ -128,7 +105,7 @@ TEST(ExtremeInputs, OfRestitutionsNearOne) {
     while (count < 20) {
         Conveyor c = usual(random);
         c.point.throw_number = random.between(2, 8);
-        c.restitution = 1 - random.over_decades(0.01, 0.05);
+        c.restitution = random.between(0.9, 0.95);
         Efficiency const found = EfficiencySolver().solve(c);
         if (found.outcome != Outcome::unsettled) continue;
         ++count;
@@ -183,16 +160,23 @@ TEST(ExtremeInputs, AreRefusedByName) {
         }
         return "";
     };
-    EXPECT_EQ(refused([](Conveyor& c) { c.restitution = 0.995; }),
-              "restitution = 0.995 is outside its range [0, 0.99]");
+    EXPECT_EQ(refused([](Conveyor& c) { c.point.throw_number = 1e4; }),
+              "throw_number = 10000 is outside its range (0, 100]");
+    EXPECT_EQ(refused([](Conveyor& c) { c.point.friction = 1e-320; }),
+              "friction = 9.99989e-321 is outside its range 0 or [1e-6, 1e6]");
+    EXPECT_EQ(refused([](Conveyor& c) { c.point.tan_vibration_angle = 1e-9; }),
+              "friction * tan_vibration_angle / min(throw_number, 1) = 3e-10 is outside its range 0 or "
+              "[5e-9, inf)");
+    EXPECT_EQ(refused([](Conveyor& c) { c.restitution = 0.98; }),
+              "restitution = 0.98 is outside its range [0, 0.95]");
     EXPECT_EQ(refused([](Conveyor& c) {
                   c.along = {{101, 0.1, 0}};
               }),
               "order = 101 is outside its range [1, 100]");
     EXPECT_EQ(refused([](Conveyor& c) {
-                  c.normal = {{2, -1001, 0}};
+                  c.normal = {{2, -101, 0}};
               }),
-              "amplitude = -1001 is outside its range [-1000, 1000]");
+              "amplitude = -101 is outside its range [-100, 100]");
 }
 
 }  // namespace

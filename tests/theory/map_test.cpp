@@ -28,7 +28,7 @@ TEST(Map, IsItsPoints) {
             for (int i = 0; i < 41; i += 3) {
                 double const tan_beta = std::tan(y.value(j) * std::acos(-1.0) / 180);
                 Motion const motion = solve(PointMass{x.value(i), tan_beta, -0.1, 0.35});
-                MapPoint const& point = map.points[static_cast<std::size_t>(j * 41 + i)];
+                Efficiency const& point = map.points[static_cast<std::size_t>(j * 41 + i)];
                 EXPECT_NEAR(point.velocity_efficiency, motion.velocity_efficiency, 2e-9);
                 EXPECT_EQ(to_string(point.mode), motion.mode);
             }
@@ -88,7 +88,7 @@ TEST(Map, PointsCanBeUsedBeforeTheLinesAreFound) {
     MapAxis const x{Input::throw_number, 0.3, 3.3, 41}, y{Input::vibration_angle_deg, 5, 60, 31};
     auto const etas = [](Map const& map) {
         std::vector<double> all;
-        for (MapPoint const& point : map.points) all.push_back(point.velocity_efficiency);
+        for (Efficiency const& point : map.points) all.push_back(point.velocity_efficiency);
         return all;
     };
     Map const whole = solve_map(paper_inputs(), x, y, {.jobs = 1});

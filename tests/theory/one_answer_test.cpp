@@ -48,17 +48,12 @@ class RandomInputs {
     double throw_number_ = 1.5;
 };
 
-/// The answer of `theory point`.
-ConveyorMotion point(Inputs const& in) {
-    return in.plastic() ? solve_plastic(in.conveyor(), Detail::motion) : solve(in.conveyor());
-}
-
 /// Whether two numbers are the same, or both are none.
 bool same(double a, double b) {
     return a == b || (std::isnan(a) && std::isnan(b));
 }
 
-void expect_same(MapPoint const& found, MapPoint const& expected, int i) {
+void expect_same(Efficiency const& found, Efficiency const& expected, int i) {
     EXPECT_TRUE(same(found.velocity_efficiency, expected.velocity_efficiency))
         << i << ' ' << found.velocity_efficiency << ' ' << expected.velocity_efficiency;
     EXPECT_EQ(found.half_width, expected.half_width) << i;
@@ -81,7 +76,7 @@ TEST(OneAnswer, OfPlasticMotionsWithoutAPeriod) {
     in.set(Input::throw_number, 3.72419);
     in.set(Input::tan_vibration_angle, 10);
     in.set(Input::friction, 0.23);
-    ConveyorMotion const alone = point(in);
+    ConveyorMotion const alone = solve(in.conveyor());
     ASSERT_GT(alone.half_width, 0);
     EXPECT_EQ(solve_batch({in}, 1).points.front().half_width, alone.half_width);
 }
@@ -110,10 +105,9 @@ TEST(OneAnswer, OfPointAndBatch) {
     for (int i = 0; i < 10000; ++i) inputs.push_back(random.next());
     BatchResult const batch = solve_batch(inputs, 0);
     for (int i = 0; i < 10000; ++i) {
-        ConveyorMotion const alone = point(inputs[static_cast<std::size_t>(i)]);
-        Motion const& m = alone.motion;
+        ConveyorMotion const alone = solve(inputs[static_cast<std::size_t>(i)].conveyor());
         expect_same(batch.points[static_cast<std::size_t>(i)],
-                    {m.velocity_efficiency, alone.half_width, mode_code(m), m.period_cycles, m.outcome}, i);
+                    efficiency_of(alone), i);
     }
 }
 
@@ -139,7 +133,7 @@ TEST(OneAnswer, OfMapAndBatch) {
         }
         BatchResult const batch = solve_batch(inputs, 0);
         for (std::size_t i = 0; i < inputs.size(); ++i) {
-            MapPoint expected = batch.points[i];
+            Efficiency expected = batch.points[i];
             if (fixed.get(Input::restitution)) {
                 EXPECT_EQ(to_string(map.points[i].mode), with_chains_joined(expected.mode)) << i;
                 expected.mode = map.points[i].mode;
@@ -161,7 +155,7 @@ TEST(OneAnswer, DoesNotDependOnARestitutionOfZero) {
     for (std::size_t i = 0; i < plain.points.size(); ++i)
         EXPECT_EQ(to_string(plain.points[i].mode), to_string(same_motion.points[i].mode)) << i;
     EXPECT_TRUE(std::ranges::any_of(
-        plain.points, [](MapPoint const& p) { return to_string(p.mode).substr(0, 2) == "FF"; }));
+        plain.points, [](Efficiency const& p) { return to_string(p.mode).substr(0, 2) == "FF"; }));
 }
 
 // From rest and from ten random starts, with noise of 1e-12, this motion ends at -0.0473 within 3000 cycles;

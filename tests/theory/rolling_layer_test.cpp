@@ -159,7 +159,7 @@ TEST(RollingLayer, BatchAndMapAgreeWithSinglePoints) {
     std::size_t const beyond = withhold_untested(points, answers);  // steep and fast ones
     EXPECT_GT(beyond, 0U);
     EXPECT_EQ(
-        std::ranges::count_if(answers, [](MapPoint const& a) { return std::isnan(a.velocity_efficiency); }),
+        std::ranges::count_if(answers, [](Efficiency const& a) { return std::isnan(a.velocity_efficiency); }),
         static_cast<std::ptrdiff_t>(beyond));
     EXPECT_EQ(answers[0].velocity_efficiency, batch.points[0].velocity_efficiency);
     Inputs fixed = points.front();

@@ -1,9 +1,8 @@
 #include "walked_motion.hpp"
 
 #include "conveyor_walk.hpp"
-#include "theory/detail/common/fixed_point.hpp"
-#include "theory/detail/common/weak_forces.hpp"
-#include "theory/detail/conveyor/check.hpp"
+#include "theory/detail/fixed_point.hpp"
+#include "theory/detail/ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +37,7 @@ constexpr double least_drift =
 constexpr double closing = 1e-6;  // rad: tolerance in time for an orbit that recurs within state_match
 constexpr double repeat_match =
     1e-9;  // tolerance of displacement and impact energy per cycle, period to period
-constexpr double state_match = 1e-11;  // tolerance of gap, its rate and slip velocity, in their units
+constexpr double state_match = 1e-13;  // tolerance of gap, its rate and slip velocity, in their units
 
 Motion no_motion(Outcome outcome, double eta) {
     return {.velocity_efficiency = eta,
@@ -353,7 +352,7 @@ std::optional<ConveyorMotion> Solver::with_period() {
 
 ConveyorMotion walked_motion(Conveyor const& conveyor) {
     try {
-        Solver solver(detail::with_noticeable_forces(conveyor));
+        Solver solver(conveyor);
         auto known = solver.with_period();
         return known ? std::move(*known) : solver.averaged();
     } catch (PhaseError const& error) {

@@ -217,10 +217,7 @@ int run_theory_point(TheoryPointArguments const& options) {
         withhold(input, *untested, options.json);
         return some_cases_failed;
     }
-    theory::Detail const detail = machine ? theory::Detail::pieces : theory::Detail::motion;
-    theory::ConveyorMotion const answer = law                        ? solve_rolling(options, input, *law)
-                                          : options.motion.plastic() ? theory::solve_plastic(input, detail)
-                                                                     : theory::solve(input);
+    theory::ConveyorMotion const answer = law ? solve_rolling(options, input, *law) : theory::solve(input);
     Motions const motions = law ? Motions{} : theory::MotionSurvey()(input, theory::efficiency_of(answer));
     Json json = as_json(input, answer);
     if (law) {

@@ -100,9 +100,7 @@ void run_theory_trace(TheoryTraceArguments const& options) {
         write(options, samples, trace_rolling(options, input, *law, samples, machine));
         return;
     }
-    theory::ConveyorMotion const motion = options.motion.plastic()
-                                              ? theory::solve_plastic(input, theory::Detail::pieces)
-                                              : theory::solve(input);
+    theory::ConveyorMotion const motion = theory::solve(input);
     if (motion.pieces.empty()) {
         throw core::InputError(fmt::format("the motion has no period to trace: {}; change the inputs",
                                            to_string(motion.motion.outcome)));

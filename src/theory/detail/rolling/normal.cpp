@@ -1,7 +1,6 @@
 #include "theory/detail/rolling/normal.hpp"
 
-#include "theory/detail/common/first_zero.hpp"
-#include "theory/detail/plastic/flight.hpp"
+#include "theory/detail/normal_orbit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,16 +17,19 @@ struct State {
     bool contact;
 };
 
+/// y'' = -1/Gamma + sin t from a height and its rate (Eqs. 12-14).
+PhaseSum ballistic(double weight, Instant const& start, double gap, double rate) {
+    return {.constant = gap + start.sine, .slope = rate + start.cosine, .square = -weight / 2, .sine = -1};
+}
+
 /// The soft landing: y'' = -1/Gamma + sin t + n, n = max(0, -kappa^2 y - 2 zeta kappa y') for y < 0.
 class SoftLanding {
   public:
     SoftLanding(double throw_number, RollingLaw const& law)
         : weight_(1 / throw_number),
           spring_(law.stiffness * law.stiffness),
-          damper_(2 * law.damping * law.stiffness) {
-        double const root = std::sqrt(law.damping * law.damping - 1);
-        slow_ = law.stiffness / (law.damping + root);
-        fast_ = law.stiffness * (law.damping + root);
+          damper_(2 * law.damping * law.stiffness),
+          rates_(landing_rates(law)) {
         double const size = (spring_ - 1) * (spring_ - 1) + damper_ * damper_;
         sine_ = (spring_ - 1) / size;
         cosine_ = -damper_ / size;
@@ -36,72 +38,55 @@ class SoftLanding {
     /// The motion that never takes off, at t = 0.
     State bound() const { return {0, -weight_ / spring_ + cosine_, sine_, true}; }
 
-    NormalPiece piece(State const& s) const {
-        NormalPiece p{.start = s.t, .end = s.t, .contact = s.contact, .gap = s.gap, .gap_rate = s.rate};
-        if (!s.contact) return p;
-        auto const [slow, fast] = free_parts(s);
-        p.force = {.constant = weight_,
-                   .sine = -1 - sine_,
-                   .cosine = -cosine_,
-                   .decays = {Decay{slow * slow_ * slow_, slow_}, Decay{fast * fast_ * fast_, fast_}},
-                   .start = s.t};
+    /// The piece that begins in a state and ends at `end` at the latest, and the state after it.
+    NormalPiece follow(State& s, double end) const {
+        Instant const start = Instant::at(s.t);
+        NormalPiece p{.start = s.t, .end = end, .contact = s.contact, .basis = {s.t, {0, rates_[0], rates_[1]}}};
+        p.gap = s.contact ? pressed(start, s) : ballistic(weight_, start, s.gap, s.rate);
+        if (s.contact) p.force = force(p.gap, p.basis);
+        p.end = s.contact ? release(p, end) : landing(p, end);
+        PhaseTime const to = p.basis.at(p.end);
+        bool const whole = p.end >= end;
+        s = {p.end, p.gap(to), p.gap.derivative(p.basis)(to), whole ? s.contact : !s.contact};
         return p;
-    }
-    State at(NormalPiece const& p, double t) const {
-        double const h = t - p.start;
-        if (!p.contact) {
-            double const c = std::cos(p.start), s = std::sin(p.start);
-            return {t, p.gap + (p.gap_rate + c) * h - weight_ * h * h / 2 - (std::sin(t) - s),
-                    p.gap_rate - weight_ * h - (std::cos(t) - c), false};
-        }
-        double const slow = p.force.decays[0].amplitude / (slow_ * slow_) * std::exp(-slow_ * h);
-        double const fast = p.force.decays[1].amplitude / (fast_ * fast_) * std::exp(-fast_ * h);
-        double const sine = std::sin(t), cosine = std::cos(t);
-        return {t, -weight_ / spring_ + sine_ * sine + cosine_ * cosine + slow + fast,
-                sine_ * cosine - cosine_ * sine - slow_ * slow - fast_ * fast, true};
-    }
-    /// The end of a piece that begins in state s, at most `end`.
-    double end_of(NormalPiece const& p, double end) const {
-        if (p.contact) {
-            return first_zero([&](double t) { return pressed(p, t); }, p.start, end);
-        }
-        return first_zero([&](double t) { return clear(p, t); }, p.start, end);
     }
 
   private:
-    /// Amplitudes of the two decays of y that the state leaves over from the bound motion.
-    std::array<double, 2> free_parts(State const& s) const {
-        double const sine = std::sin(s.t), cosine = std::cos(s.t);
-        double const y = s.gap + weight_ / spring_ - sine_ * sine - cosine_ * cosine;
-        double const rate = s.rate - sine_ * cosine + cosine_ * sine;
-        return {(rate + fast_ * y) / (fast_ - slow_), -(rate + slow_ * y) / (fast_ - slow_)};
+    /// The height in contact: the bound motion, and two decays that the state leaves over from it.
+    PhaseSum pressed(Instant const& start, State const& s) const {
+        double const y = s.gap + weight_ / spring_ - sine_ * start.sine - cosine_ * start.cosine;
+        double const rate = s.rate - sine_ * start.cosine + cosine_ * start.sine;
+        double const slow = rates_[0], fast = rates_[1];
+        return {.constant = -weight_ / spring_,
+                .sine = sine_,
+                .cosine = cosine_,
+                .decays = {0, (rate + fast * y) / (fast - slow), -(rate + slow * y) / (fast - slow)}};
     }
-    Sample pressed(NormalPiece const& p, double t) const {
-        ContactForce const f = p.force.from(t);
-        double const sine = std::sin(t), cosine = std::cos(t);
-        Sample s{.value = f.constant + f.sine * sine + f.cosine * cosine,
-                 .rate = f.sine * cosine - f.cosine * sine,
-                 .bend = std::abs(f.sine) + std::abs(f.cosine)};
-        for (Decay const& d : f.decays) {
-            s.value += d.amplitude;
-            s.rate -= d.amplitude * d.rate;
-            s.bend += std::abs(d.amplitude) * d.rate * d.rate;
+    /// n = y'' + 1/Gamma - sin t
+    PhaseSum force(PhaseSum const& gap, PhaseBasis const& basis) const {
+        PhaseSum n{.constant = weight_, .sine = -1};
+        return n.add(1, gap.derivative(basis).derivative(basis));
+    }
+    static double release(NormalPiece const& p, double end) {
+        int which = -1;
+        return first_end<1>({Margin(p.force)}, p.basis, p.start, end, which);
+    }
+    /// Contact begins as soon as the layer is below the trough's surface and spring and damper push.
+    double landing(NormalPiece const& p, double end) const {
+        double from = p.start;
+        int which = 0;
+        if (p.gap(p.basis.at(from)) < 0) {
+            Margin const pulls(PhaseSum(p.gap.derivative(p.basis)).add(spring_ / damper_, p.gap));
+            Margin const below(PhaseSum{}.add(-1, p.gap));
+            from = first_end<2>({pulls, below}, p.basis, from, end, which);
+            if (which != 1) return from;
         }
-        return s;
-    }
-    /// Contact begins as soon as both the gap and kappa^2 y + 2 zeta kappa y' are negative.
-    Sample clear(NormalPiece const& p, double t) const {
-        State const s = at(p, t);
-        double const rate = std::sin(t) - weight_;  // y''
-        double const push = spring_ * s.gap + damper_ * s.rate;
-        double const bend = 1 + weight_;
-        if (s.gap >= push / damper_) return {.value = s.gap, .rate = s.rate, .bend = bend};
-        return {.value = push / damper_,
-                .rate = spring_ / damper_ * s.rate + rate,
-                .bend = 1 + spring_ / damper_ * bend};
+        return first_end<1>({Margin(p.gap)}, p.basis, from, end, which);
     }
 
-    double weight_, spring_, damper_, slow_ = 0, fast_ = 0, sine_ = 0, cosine_ = 0;
+    double weight_, spring_, damper_;
+    std::array<double, 2> rates_;
+    double sine_ = 0, cosine_ = 0;
 };
 
 /// Follows the motion from s until `end` and appends its pieces.
@@ -109,10 +94,7 @@ State follow(SoftLanding const& law, State s, double end, std::vector<NormalPiec
     double const most = most_pieces_per_cycle * (1 + end - s.t);
     for (int i = 0; s.t < end; ++i) {
         if (i > most) throw PhaseError("the layer chatters on the trough");
-        NormalPiece p = law.piece(s);
-        p.end = law.end_of(p, end);
-        s = law.at(p, p.end);
-        s.contact = p.end < end ? !p.contact : p.contact;
+        NormalPiece const p = law.follow(s, end);
         if (pieces != nullptr && p.end > p.start) pieces->push_back(p);
     }
     return s;
@@ -121,12 +103,9 @@ State follow(SoftLanding const& law, State s, double end, std::vector<NormalPiec
 /// The state at the next take-off within a period; at `end` if there is none.
 State next_take_off(SoftLanding const& law, State s, double end) {
     while (s.t < end) {
-        NormalPiece const p = law.piece(s);
-        double const to = law.end_of(p, end);
-        bool const done = p.contact && to < end;
-        s = law.at(p, to);
-        s.contact = to < end ? !p.contact : p.contact;
-        if (done) return s;
+        bool const pressed = s.contact;
+        law.follow(s, end);
+        if (pressed && !s.contact) break;
     }
     return s;
 }
@@ -141,14 +120,12 @@ RollingNormal soft(double throw_number, RollingLaw const& law) {
         starts.push_back(s);
         s = follow(landing, s, two_pi, nullptr);
         s.t = 0;
-        for (int k = 1; k <= std::min<int>(longest_rolling_period, static_cast<int>(starts.size())); ++k) {
-            State const& earlier = starts[starts.size() - static_cast<std::size_t>(k)];
-            bool const same = earlier.contact == s.contact && std::abs(earlier.gap - s.gap) < same_state &&
-                              std::abs(earlier.rate - s.rate) < same_state;
-            if (!same) continue;
-            normal.cycles = k;
-            break;
-        }
+        auto const repeats = [&](State const& earlier) {
+            return earlier.contact == s.contact && std::abs(earlier.gap - s.gap) < same_state &&
+                   std::abs(earlier.rate - s.rate) < same_state;
+        };
+        for (std::size_t k = 1; k <= longest_rolling_period && k <= starts.size() && normal.cycles == 0; ++k)
+            if (repeats(starts[starts.size() - k])) normal.cycles = static_cast<int>(k);
     }
     int const cycles = normal.cycles > 0 ? normal.cycles : kept_cycles;
     s = next_take_off(landing, s, two_pi * cycles);
@@ -157,75 +134,50 @@ RollingNormal soft(double throw_number, RollingLaw const& law) {
     return normal;
 }
 
+/// The rigid landing is that of the point mass: its flights and contacts.
 RollingNormal hard(double throw_number) {
+    Conveyor conveyor{};
+    conveyor.point = {throw_number, 1, 0, 1};
+    Forces forces;
+    forces.set(conveyor);
+    NormalOrbit orbit;
+    find_normal_orbit(forces, {}, orbit);
     RollingNormal normal;
-    ContactForce const force{.constant = 1 / throw_number, .sine = -1};
-    if (throw_number <= 1) {
-        normal.pieces.push_back(
-            {.start = 0, .end = two_pi, .contact = true, .gap = 0, .gap_rate = 0, .force = force});
-        return normal;
-    }
-    NormalMotion motion;
-    find_normal_motion(throw_number, motion);
-    normal.cycles = motion.cycles;
-    for (std::size_t i = 0; i < motion.flights.size(); ++i) {
-        Flight const& flight = motion.flights[i];
-        double const next = i + 1 < motion.flights.size() ? motion.flights[i + 1].start.t : motion.end.t;
-        normal.pieces.push_back(
-            {.start = flight.start.t, .end = flight.end.t, .contact = false, .gap = 0, .gap_rate = 0});
-        normal.pieces.push_back({.start = flight.end.t,
-                                 .end = std::max(next, flight.end.t),
+    normal.cycles = orbit.cycles;
+    double const weight = forces.weight();
+    auto const touch = [&](double from, double to, double impulse) {
+        normal.pieces.push_back({.start = from,
+                                 .end = to,
                                  .contact = true,
-                                 .gap = 0,
-                                 .gap_rate = 0,
-                                 .impulse = flight.approach,
-                                 .force = force});
+                                 .impulse = impulse,
+                                 .basis = {from},
+                                 .force = {.constant = weight, .sine = -1}});
+    };
+    if (orbit.in_contact) touch(0, two_pi, 0);
+    for (std::size_t i = orbit.first; i < orbit.hops.size(); ++i) {
+        Hop const& hop = orbit.hops[i];
+        double const last = normal.pieces.empty() ? hop.start.t : normal.pieces.back().end;
+        double const shift = two_pi * std::round((last - hop.start.t) / two_pi);
+        double const start = hop.start.t + shift, end = hop.end.t + shift;
+        normal.pieces.push_back({.start = start,
+                                 .end = end,
+                                 .contact = false,
+                                 .basis = {start},
+                                 .gap = ballistic(weight, hop.start, 0, 0)});
+        touch(end, std::max(hop.leave.t + shift, end), hop.approach);
     }
     return normal;
 }
 
 }  // namespace
 
-double ContactForce::operator()(double t) const {
-    double sum = constant + sine * std::sin(t) + cosine * std::cos(t);
-    for (Decay const& d : decays) {
-        if (d.amplitude != 0) sum += d.amplitude * std::exp(-d.rate * (t - start));
-    }
-    return sum;
-}
-
-ContactForce ContactForce::from(double t) const {
-    if (t == start) return *this;
-    ContactForce moved = *this;
-    for (Decay& d : moved.decays) {
-        if (d.amplitude != 0) d.amplitude *= std::exp(-d.rate * (t - start));
-    }
-    moved.start = t;
-    return moved;
-}
-
-ContactForce ContactForce::scaled(double factor) const {
-    ContactForce result = *this;
-    result.constant *= factor;
-    result.sine *= factor;
-    result.cosine *= factor;
-    for (Decay& d : result.decays) d.amplitude *= factor;
-    return result;
+std::array<double, 2> landing_rates(RollingLaw const& law) {
+    double const root = std::sqrt(law.damping * law.damping - 1);
+    return {law.stiffness / (law.damping + root), law.stiffness * (law.damping + root)};
 }
 
 RollingNormal find_rolling_normal(double throw_number, RollingLaw const& law) {
     return std::isinf(law.stiffness) ? hard(throw_number) : soft(throw_number, law);
-}
-
-std::array<double, 2> gap_at(NormalPiece const& piece, double t, double throw_number, RollingLaw const& law) {
-    if (std::isinf(law.stiffness)) {
-        if (piece.contact) return {0, 0};
-        double const h = t - piece.start, c = std::cos(piece.start), s = std::sin(piece.start);
-        return {c * h - h * h / (2 * throw_number) - (std::sin(t) - s),
-                -h / throw_number - (std::cos(t) - c)};
-    }
-    State const s = SoftLanding(throw_number, law).at(piece, t);
-    return {s.gap, s.rate};
 }
 
 }  // namespace vibrotrough::theory::detail

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "theory/detail/common/first_zero.hpp"
-#include "theory/detail/common/instant.hpp"
+#include "theory/detail/instant.hpp"
+#include "theory/errors.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ struct PhaseTime {
 /// The functions that the sums of one phase have in common: the rates of its three decays.
 struct PhaseBasis {
     double start;
-    std::array<double, 3> rates;  ///< of the phase itself and of the two decays of the contact force
+    std::array<double, 3> rates{0, 1, 1};  ///< of the phase itself and of the two decays of a soft contact
 
     PhaseTime at(double t) const {
         Instant const now = Instant::at(t);
@@ -34,19 +34,19 @@ struct PhaseBasis {
     }
 };
 
-/// constant + slope h + sine sin t + cosine cos t + decays
+/// constant + slope h + square h^2 + sine sin t + cosine cos t + decays
 struct PhaseSum {
-    double constant = 0, slope = 0, sine = 0, cosine = 0;
+    double constant = 0, slope = 0, square = 0, sine = 0, cosine = 0;
     std::array<double, 3> decays{};  ///< amplitudes at the start
 
     double operator()(PhaseTime const& at) const {
-        return constant + slope * at.h + sine * at.sine + cosine * at.cosine + decays[0] * at.decays[0] +
-               decays[1] * at.decays[1] + decays[2] * at.decays[2];
+        return constant + (slope + square * at.h) * at.h + sine * at.sine + cosine * at.cosine +
+               decays[0] * at.decays[0] + decays[1] * at.decays[1] + decays[2] * at.decays[2];
     }
     /// Its integral over the phase. @param from, to  the start and the end of the phase
     double integral(PhaseBasis const& basis, Instant const& from, PhaseTime const& to) const {
         double const h = to.h;
-        double x = (constant + slope * h / 2) * h + sine * (from.cosine - to.cosine) +
+        double x = (constant + (slope / 2 + square * h / 3) * h) * h + sine * (from.cosine - to.cosine) +
                    cosine * (to.sine - from.sine);
         for (std::size_t i = 0; i < decays.size(); ++i) {
             double const rate = basis.rates[i];
@@ -60,14 +60,22 @@ struct PhaseSum {
     }
     PhaseSum derivative(PhaseBasis const& basis) const {
         return {slope,
+                2 * square,
                 0,
                 -cosine,
                 sine,
                 {-basis.rates[0] * decays[0], -basis.rates[1] * decays[1], -basis.rates[2] * decays[2]}};
     }
+    /// The same sum without slope and square, counted from a later time.
+    PhaseSum from(PhaseTime const& start) const {
+        PhaseSum later = *this;
+        for (std::size_t i = 0; i < decays.size(); ++i) later.decays[i] *= start.decays[i];
+        return later;
+    }
     PhaseSum& add(double factor, PhaseSum const& other) {
         constant += factor * other.constant;
         slope += factor * other.slope;
+        square += factor * other.square;
         sine += factor * other.sine;
         cosine += factor * other.cosine;
         for (std::size_t i = 0; i < decays.size(); ++i) decays[i] += factor * other.decays[i];
@@ -75,13 +83,39 @@ struct PhaseSum {
     }
 };
 
+/// The velocity x that obeys x' = -rate x + drive and is `first` at the start. The rate is 0 or that of the
+/// basis, and not the rate of one of the decays of the drive, which has no slope.
+inline PhaseSum driven(double rate, PhaseSum const& drive, double first, PhaseBasis const& basis,
+                       Instant const& start) {
+    double const size = 1 + rate * rate;
+    PhaseSum x{.sine = (rate * drive.sine + drive.cosine) / size,
+               .cosine = (rate * drive.cosine - drive.sine) / size};
+    (rate > 0 ? x.constant : x.slope) = rate > 0 ? drive.constant / rate : drive.constant;
+    double free = first - x.constant - x.sine * start.sine - x.cosine * start.cosine;
+    for (std::size_t i = 1; i < drive.decays.size(); ++i) {
+        if (drive.decays[i] == 0) continue;
+        x.decays[i] = drive.decays[i] / (rate - basis.rates[i]);
+        free -= x.decays[i];
+    }
+    (rate > 0 ? x.decays[0] : x.constant) += free;
+    return x;
+}
+
+/// How far a function stays positive for certain: with |f''| <= bend it does for h = (f' + sqrt(f'^2 + 2 bend
+/// f)) / bend. Close to a zero these are Newton steps.
+inline double safe_step(double value, double rate, double bend, double reach = HUGE_VAL) {
+    double const positive = std::max(value, 0.0), root = std::sqrt(rate * rate + 2 * bend * positive);
+    double const step = rate < 0 ? 2 * positive / (root - rate) : (rate + root) / bend;
+    return std::min(bend == 0 && rate >= 0 ? reach : step, reach);
+}
+
 /// A sum that stays positive until the phase ends.
 class Margin {
   public:
     /// One that has no zero.
     Margin() : sum_{.constant = 1} {}
     explicit Margin(PhaseSum const& sum)
-        : sum_(sum), wave_(std::sqrt(sum.sine * sum.sine + sum.cosine * sum.cosine)) {}
+        : sum_(sum), wave_(std::sqrt(sum.sine * sum.sine + sum.cosine * sum.cosine) + 2 * std::abs(sum.square)) {}
 
     /// The margin at one time, and what bounds it afterwards. A decay with a positive amplitude is convex and
     /// stays above its tangent. One with a negative amplitude rises.
@@ -95,9 +129,10 @@ class Margin {
     State at(PhaseTime const& time, PhaseBasis const& basis) const {
         State s{.value = sum_(time),
                 .rate = 0,
-                .falling_rate = sum_.slope + sum_.sine * time.cosine - sum_.cosine * time.sine,
+                .falling_rate = sum_.slope + 2 * sum_.square * time.h + sum_.sine * time.cosine -
+                                sum_.cosine * time.sine,
                 .rising_bend = 0,
-                .curvature = -sum_.sine * time.sine - sum_.cosine * time.cosine,
+                .curvature = 2 * sum_.square - sum_.sine * time.sine - sum_.cosine * time.cosine,
                 .bend = wave_};
         double rising = 0;
         for (std::size_t i = 0; i < sum_.decays.size(); ++i) {
@@ -112,7 +147,7 @@ class Margin {
     }
     /// How far the sum stays positive for certain, by the bounds of the second derivatives.
     double step(State const& s) const {
-        return safe_step({.value = s.value, .rate = s.rate, .bend = wave_ + s.rising_bend});
+        return safe_step(s.value, s.rate, wave_ + s.rising_bend);
     }
     /// The largest step that several bounds allow. Beside those of step(): rising decays are bounded by their
     /// value, which is better where they are fast; and the wave by its second derivative at the start and a
@@ -120,7 +155,7 @@ class Margin {
     double longer_step(State const& s, double step) const {
         double rate = s.rate, bend = s.rising_bend;
         if (bend > 0) {
-            double const flat = safe_step({.value = s.value, .rate = s.falling_rate, .bend = wave_});
+            double const flat = safe_step(s.value, s.falling_rate, wave_);
             if (flat > step) {
                 step = flat;
                 rate = s.falling_rate;
@@ -128,10 +163,8 @@ class Margin {
             }
         }
         double const reach = 1.5 * step;
-        return std::max(step, safe_step({.value = s.value,
-                                         .rate = rate,
-                                         .bend = bend + std::max(wave_ * reach / 3 - s.curvature, 0.0),
-                                         .reach = reach}));
+        double const later = bend + std::max(wave_ * reach / 3 - s.curvature, 0.0);
+        return std::max(step, safe_step(s.value, rate, later, reach));
     }
 
   private:

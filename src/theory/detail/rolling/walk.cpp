@@ -1,47 +1,28 @@
 #include "theory/detail/rolling/walk.hpp"
 
-#include "theory/detail/common/first_zero.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 namespace vibrotrough::theory::detail {
 namespace {
 
-// A margin that begins at zero and falls ends the phase at once; one whose rate is about zero is looked at a
-// first step later. What happens within that step changes a velocity by less than 1e-13.
-constexpr double starts_at_zero = 1e-13, first_step = 1e-7, steep = 1e-6;
 constexpr int most_phases = 2000;                            // within one piece of the normal motion
-constexpr Sample no_zero{.value = 1, .rate = 0, .bend = 0};  // a margin that has no zero
 enum End { of_piece, slip_stops, spin_stops, friction_forwards, friction_backwards };
 
 int sign(double x) {
     return (x > 0) - (x < 0);
 }
 
-/// The first time in [start, end] at which a margin reaches zero, and which one it is; -1: none.
-template <std::size_t N, class Margins>
-double first_end(Margins const& margins, double start, double end, int& what) {
-    auto const first = margins(start);
-    double from = start;
-    for (std::size_t k = 0; k < N; ++k) {
-        if (first[k].value > starts_at_zero) continue;
-        if (first[k].rate < -steep) {
-            what = static_cast<int>(k);
-            return start;
-        }
-        from = std::min(start + first_step, end);
-    }
-    auto const found = first_of_zeros<N>(margins, from, end);
-    what = found.which;
-    return found.t;
-}
-
-ContactForce sum(ContactForce force, double factor, double constant, double sine) {
-    force = force.scaled(factor);
-    force.constant += constant;
-    force.sine += sine;
-    return force;
+/// The viscous torque. A rate of its own that is that of a decay of the landing to within 1e-7 is moved by as
+/// much, because the sums of both would cancel each other.
+double apart_from_landing(RollingLaw const& law) {
+    if (std::isinf(law.stiffness)) return law.torque;
+    constexpr double apart = 1e-7;
+    double torque = law.torque;
+    for (double const inertia : {law.spin_inertia, 1 + law.spin_inertia})
+        for (double const rate : landing_rates(law))
+            if (std::abs(torque / inertia / rate - 1) < apart) torque = inertia * rate * (1 + 2 * apart);
+    return torque;
 }
 
 }  // namespace
@@ -52,7 +33,7 @@ RollingWalk::RollingWalk(RollingLayer const& layer)
       friction_(layer.point.friction),
       dry_(layer.law.dry_torque),
       inertia_(layer.law.spin_inertia),
-      torque_(layer.law.torque),
+      torque_(apart_from_landing(layer.law)),
       weight_(layer.point.tan_vibration_angle / layer.point.throw_number),
       no_spin_(std::isinf(layer.law.torque)) {}
 
@@ -65,50 +46,31 @@ double RollingWalk::greatest_velocity(double length) const {
     return 2 * (spin + 2 + (std::abs(gravity_) + friction_ * weight_) * length);
 }
 
-Relaxation RollingWalk::velocity(RollingPhase const& p) const {
-    return velocity(p, p.normal.force.from(p.start), Instant::at(p.start));
-}
-
-Relaxation RollingWalk::spin(RollingPhase const& p) const {
-    return spin(p, p.normal.force.from(p.start), Instant::at(p.start));
-}
-
-Relaxation RollingWalk::velocity(RollingPhase const& p, ContactForce const& n, Instant const& start) const {
-    if (p.slip == 0 && p.contact) return spin(p, n, start);
-    double const push = p.contact ? -p.slip * friction_ * tangent_ : 0;
-    return {0, sum(n, push, -gravity_, 1), p.velocity, start};
-}
-
-Relaxation RollingWalk::spin(RollingPhase const& p, ContactForce const& n, Instant const& start) const {
-    if (!p.contact) {
-        ContactForce none{.start = p.start};
-        return {no_spin_ ? 0 : torque_ / inertia_, none, p.spin, start};
+/// Sets the velocities of a phase.
+void RollingWalk::solve(RollingPhase& p, Instant const& start) const {
+    bool const rolls = p.contact && p.slip == 0, turns = p.contact ? p.turn != 0 : !no_spin_;
+    double const inertia = rolls ? 1 + inertia_ : inertia_, rate = turns ? torque_ / inertia : 0;
+    p.basis = {p.start, {rate, p.normal.basis.rates[1], p.normal.basis.rates[2]}};
+    p.n = p.contact ? p.normal.force.from(p.normal.basis.at(p.start)) : PhaseSum{};
+    PhaseSum const drive{.constant = -gravity_, .sine = 1};
+    if (turns) {
+        double const dry = p.contact ? p.turn * dry_ : 0, driving = rolls ? 0 : p.slip * friction_;
+        PhaseSum torque = PhaseSum{}.add((driving - dry) * tangent_ / inertia, p.n);
+        if (rolls) torque.add(1 / inertia, drive);
+        p.w = driven(rate, torque, p.spin, p.basis, start);
     }
-    if (p.turn == 0) return {0, ContactForce{.start = p.start}, 0, start};
-    if (p.slip == 0) {
-        double const mass = 1 + inertia_;
-        return {torque_ / mass, sum(n, -p.turn * dry_ * tangent_ / mass, -gravity_ / mass, 1 / mass), p.spin,
-                start};
-    }
-    return {torque_ / inertia_, n.scaled((p.slip * friction_ - p.turn * dry_) * tangent_ / inertia_), p.spin,
-            start};
+    p.v = rolls ? p.w : driven(0, PhaseSum(drive).add(-p.slip * friction_ * tangent_, p.n), p.velocity, p.basis, start);
 }
 
-RollingWalk::Forces RollingWalk::forces(RollingPhase const& p, Contact const& contact) const {
-    Relaxation const w = spin(p, contact.n, contact.start);
-    Relaxation const v = p.contact && p.slip == 0 ? w : velocity(p, contact.n, contact.start);
-    // The first decay of the phase: v has none of its own while it slips or flies.
-    bool const turns = p.contact ? p.turn != 0 : !no_spin_;
-    double const own = turns ? torque_ / (p.contact && p.slip == 0 ? 1 + inertia_ : inertia_) : 0;
-    return {contact.n, v,       w,
-            v.sum(),   w.sum(), {p.start, {own, contact.n.decays[0].rate, contact.n.decays[1].rate}}};
+/// The friction that keeps a layer from slipping.
+PhaseSum RollingWalk::needed_friction(RollingPhase const& p) const {
+    return p.w.derivative(p.basis).add(1, {.constant = gravity_, .sine = -1});
 }
 
 double RollingWalk::friction_force(RollingPhase const& p, double t) const {
     if (!p.contact) return 0;
-    if (p.slip != 0) return -p.slip * friction_ * tangent_ * p.normal.force(t);
-    double const needed = gravity_ - std::sin(t);
-    return p.turn == 0 ? needed : spin(p).at(t).rate + needed;
+    PhaseTime const at = p.basis.at(t);
+    return p.slip != 0 ? -p.slip * friction_ * tangent_ * p.n(at) : needed_friction(p)(at);
 }
 
 /// The phase that begins in state s. @param leaving  a rolling or resting phase ended here because its
@@ -151,83 +113,25 @@ RollingPhase RollingWalk::from_no_slip(RollingPhase p, Contact const& contact, i
     return p;
 }
 
-double RollingWalk::end_of(RollingPhase const& p, Forces const& f, double end, int& what) const {
+double RollingWalk::end_of(RollingPhase const& p, double end, int& what) const {
     what = of_piece;
     if (!p.contact) return end;
-    auto const &w = f.w_sum, &v = f.v_sum;
-    if (!v || !w) return end_of_close_rates(p, f, end, what);
-    PhaseBasis const& basis = f.basis;
-    Margin const turning = p.turn == 0 ? Margin() : Margin(PhaseSum{}.add(p.turn, *w));
+    Margin const turning = p.turn == 0 ? Margin() : Margin(PhaseSum{}.add(p.turn, p.w));
     if (p.slip != 0) {
-        Margin const slipping(PhaseSum{}.add(p.slip, *v).add(-p.slip, *w));
-        double const to = first_end<2>({turning, slipping}, basis, p.start, end, what);
+        Margin const slipping(PhaseSum{}.add(p.slip, p.v).add(-p.slip, p.w));
+        double const to = first_end<2>({turning, slipping}, p.basis, p.start, end, what);
         what = what < 0 ? of_piece : what == 0 ? spin_stops : slip_stops;
         return to;
     }
     double const limit =
         (p.turn == 0 ? std::min(friction_, no_spin_ ? friction_ : dry_) : friction_) * tangent_;
-    PhaseSum const force{
-        f.n.constant, 0, f.n.sine, f.n.cosine, {0, f.n.decays[0].amplitude, f.n.decays[1].amplitude}};
-    PhaseSum needed = w->derivative(basis);
-    needed.add(1, {.constant = gravity_, .sine = -1});
-    Margin const forwards(PhaseSum{}.add(-1, needed).add(limit, force));
-    Margin const backwards(PhaseSum(needed).add(limit, force));
-    double const to = first_end<3>({turning, forwards, backwards}, basis, p.start, end, what);
+    PhaseSum const needed = needed_friction(p);
+    Margin const forwards(PhaseSum{}.add(-1, needed).add(limit, p.n));
+    Margin const backwards(PhaseSum(needed).add(limit, p.n));
+    double const to = first_end<3>({turning, forwards, backwards}, p.basis, p.start, end, what);
     constexpr std::array ends{spin_stops, friction_forwards, friction_backwards};
     what = what < 0 ? of_piece : ends[static_cast<std::size_t>(what)];
     return to;
-}
-
-double RollingWalk::end_of_close_rates(RollingPhase const& p, Forces const& f, double end, int& what) const {
-    if (p.slip != 0) {
-        double const to = first_end<2>(
-            [&](double t) {
-                Clock const clock = Clock::at(t, f.n);
-                auto const a = f.v.at(clock), b = f.w.at(clock);
-                return std::array{
-                    p.turn == 0 ? no_zero
-                                : Sample{.value = p.turn * b.value, .rate = p.turn * b.rate, .bend = b.bend},
-                    Sample{.value = p.slip * (a.value - b.value),
-                           .rate = p.slip * (a.rate - b.rate),
-                           .bend = a.bend + b.bend}};
-            },
-            p.start, end, what);
-        what = what < 0 ? of_piece : what == 0 ? spin_stops : slip_stops;
-        return to;
-    }
-    double const to =
-        first_end<3>([&](double t) { return without_slip(p, f.n, f.w, t); }, p.start, end, what);
-    constexpr std::array ends{spin_stops, friction_forwards, friction_backwards};
-    what = what < 0 ? of_piece : ends[static_cast<std::size_t>(what)];
-    return to;
-}
-
-/// Margins of a phase without slip: of the spin, and of the friction force forwards and backwards.
-std::array<Sample, 3> RollingWalk::without_slip(RollingPhase const& p, ContactForce const& n,
-                                                Relaxation const& w, double t) const {
-    Clock const c = Clock::at(t, n);
-    auto const a = w.at(c);
-    double force = n.constant + n.sine * c.sine + n.cosine * c.cosine;
-    double change = n.sine * c.cosine - n.cosine * c.sine, bend = std::abs(n.sine) + std::abs(n.cosine);
-    for (std::size_t i = 0; i < n.decays.size(); ++i) {
-        double const now = n.decays[i].amplitude * c.decays[i], rate = n.decays[i].rate;
-        force += now;
-        change -= rate * now;
-        bend += rate * rate * std::abs(now);
-    }
-    double const limit =
-        (p.turn == 0 ? std::min(friction_, no_spin_ ? friction_ : dry_) : friction_) * tangent_;
-    double spin_bend = 0;  // w'' from the equation of w
-    if (p.turn != 0)
-        spin_bend = (c.cosine - torque_ * a.rate - p.turn * dry_ * tangent_ * change) / (1 + inertia_);
-    double const needed = a.rate + gravity_ - c.sine, needed_rate = spin_bend - c.cosine;
-    auto const margin = [&](int way) {
-        return Sample{.value = limit * force - way * needed,
-                      .rate = limit * change - way * needed_rate,
-                      .bend = limit * bend + a.jerk + 1};
-    };
-    Sample const turning{.value = p.turn * a.value, .rate = p.turn * a.rate, .bend = a.bend};
-    return {p.turn == 0 ? no_zero : turning, margin(1), margin(-1)};
 }
 
 /// The impulse of a rigid landing: Coulomb friction until the slip ends, with the dry torque in proportion.
@@ -308,7 +212,7 @@ void RollingWalk::pass(RollingSensitivity& by, RollingPhase const& before, Progr
                        RollingPhase const& after, Contact const& contact) const {
     bool const same_piece = before.normal.start == after.normal.start;
     double const sine = now.at.sine, force = contact.normal_force;
-    double const earlier_force = same_piece ? force : tangent_ * before.normal.force(now.at.t);
+    double const earlier_force = same_piece ? force : tangent_ * before.n(before.basis.at(now.at.t));
     RollingState const old = rates(before, sine, earlier_force, now.s),
                        then = rates(after, sine, force, now.s);
     bool const slip = now.what == slip_stops;
@@ -323,12 +227,11 @@ void RollingWalk::pass(RollingSensitivity& by, RollingPhase const& before, Progr
 /// Goes to the end of a phase, at most `end`.
 void RollingWalk::step(Progress& now, RollingPhase& p, Contact const& contact, double end,
                        Record* record) const {
-    Forces const f = forces(p, contact);
+    solve(p, contact.start);
     now.what = of_piece;
-    p.end = end_of(p, f, end, now.what);
-    PhaseTime const to = f.basis.at(p.end);
-    bool const sums = f.v_sum && f.w_sum;
-    now.s = sums ? RollingState{(*f.v_sum)(to), (*f.w_sum)(to)} : RollingState{f.v(p.end), f.w(p.end)};
+    p.end = end_of(p, end, now.what);
+    PhaseTime const to = p.basis.at(p.end);
+    now.s = {p.v(to), p.w(to)};
     if (p.contact && p.turn == 0) now.s.w = 0;
     if (p.contact && p.slip == 0) now.s.v = now.s.w;
     if (now.what == spin_stops) now.s = {p.slip == 0 ? 0 : now.s.v, 0};
@@ -336,7 +239,7 @@ void RollingWalk::step(Progress& now, RollingPhase& p, Contact const& contact, d
     now.leaving = now.what == friction_forwards ? 1 : now.what == friction_backwards ? -1 : 0;
     now.at = {to.t, to.sine, to.cosine};
     if (record == nullptr) return;
-    record->travel += sums ? f.v_sum->integral(f.basis, contact.start, to) : f.v.travel(p.end);
+    record->travel += p.v.integral(p.basis, contact.start, to);
     if (p.end > p.start) record->phases.push_back(p);
 }
 
@@ -357,10 +260,7 @@ RollingState RollingWalk::follow(RollingNormal const& normal, RollingState s, Re
         now.leaving = 0;
         for (int i = 0; now.at.t < piece.end; ++i) {
             if (i > most_phases) throw PhaseError("the floor grains chatter between rolling and sliding");
-            ContactForce const n = piece.force.from(now.at.t);
-            double const force = n.constant + n.sine * now.at.sine + n.cosine * now.at.cosine +
-                                 n.decays[0].amplitude + n.decays[1].amplitude;
-            Contact const contact{n, now.at, tangent_ * force};
+            Contact const contact{now.at, tangent_ * piece.force(piece.basis.at(now.at.t))};
             RollingPhase p = next_phase(piece, contact, now.s, now.leaving);
             bool const passes = by != nullptr && (now.what == spin_stops || now.what == slip_stops);
             if (passes) pass(*by, last, now, p, contact);

@@ -1,10 +1,7 @@
 #pragma once
 
-#include "theory/detail/common/first_zero.hpp"
 #include "theory/detail/rolling/normal.hpp"
-#include "theory/detail/rolling/relaxation.hpp"
 
-#include <optional>
 #include <vector>
 
 // The motion of a rolling layer along the trough. Internal to this room.
@@ -18,6 +15,8 @@ struct RollingPhase {
     bool contact;                  ///< false in flight
     double velocity, spin;         ///< at the start: v and w
     detail::NormalPiece normal{};  ///< the part of the normal motion within which it lies
+    detail::PhaseBasis basis{};    ///< of the sums
+    detail::PhaseSum v{}, w{}, n{};  ///< velocity, spin and normal force
 };
 
 /// One period of the motion along the trough.
@@ -59,40 +58,23 @@ class RollingWalk {
                         RollingSensitivity* by = nullptr) const;
     /// What neither |v| nor |w| exceeds in a motion that repeats after `length`.
     double greatest_velocity(double length) const;
-    /// The velocity of the layer within a phase, from its start.
-    Relaxation velocity(RollingPhase const& phase) const;
-    /// The spin within a phase.
-    Relaxation spin(RollingPhase const& phase) const;
-    /// The friction force within a phase. @param v, w  the state at t
+    /// The friction force within a phase.
     double friction_force(RollingPhase const& phase, double t) const;
 
   private:
-    /// The contact force with its decays counted from the start of a phase, and its value there.
+    /// Where a phase begins, and N there.
     struct Contact {
-        ContactForce n;
         Instant start;
-        double normal_force;  ///< N
+        double normal_force;
     };
     RollingPhase next_phase(NormalPiece const& piece, Contact const& contact, RollingState s,
                             int leaving) const;
     RollingPhase from_no_slip(RollingPhase phase, Contact const& contact, int leaving) const;
-    /// The velocities of a phase and the contact force.
-    struct Forces {
-        ContactForce n;
-        Relaxation v, w;
-        std::optional<PhaseSum> v_sum, w_sum;  ///< the same velocities; nothing for decays of equal rates
-        PhaseBasis basis;
-    };
-    Forces forces(RollingPhase const& phase, Contact const& contact) const;
+    void solve(RollingPhase& phase, Instant const& start) const;
+    PhaseSum needed_friction(RollingPhase const& phase) const;
     struct Progress;
     void step(Progress& now, RollingPhase& phase, Contact const& contact, double end, Record* record) const;
-    Relaxation velocity(RollingPhase const& phase, ContactForce const& n, Instant const& start) const;
-    Relaxation spin(RollingPhase const& phase, ContactForce const& n, Instant const& start) const;
-    double end_of(RollingPhase const& phase, Forces const& f, double end, int& what) const;
-    /// The same for decays with about equal rates.
-    double end_of_close_rates(RollingPhase const& phase, Forces const& f, double end, int& what) const;
-    std::array<Sample, 3> without_slip(RollingPhase const& phase, ContactForce const& n, Relaxation const& w,
-                                       double t) const;
+    double end_of(RollingPhase const& phase, double end, int& what) const;
     RollingState land(RollingState s, double impulse) const;
     RollingState rates(RollingPhase const& phase, double sine, double normal_force, RollingState s) const;
     void carry(RollingSensitivity& by, RollingPhase const& phase) const;

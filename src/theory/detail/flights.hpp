@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/detail/conveyor/waves.hpp"
+#include "theory/detail/forces.hpp"
 
 #include <vector>
 
@@ -15,6 +15,28 @@ struct Hop {
     double approach;     ///< rate at the landing, >= 0
     double rebound;      ///< rate with which the next flight starts, >= 0
     Decayed decayed;     ///< over its duration
+};
+
+/// The height of a mass that flies above the trough (Eqs. 12-14): g'' + kappa g' = -N.
+class Ballistic {
+  public:
+    /// @param gap, rate  at the start; relative to the trough
+    Ballistic(Forces const& forces, Instant const& start, double gap, double rate)
+        : forces_(forces), start_(start.t), speed_(forces.vy()(start) + rate), level_(forces.y()(start) + gap) {}
+
+    double gap(Instant const& at, Decayed const& d) const {
+        return speed_ * d.once - forces_.weight() * d.twice - (forces_.y()(at) - level_);
+    }
+    double rate(Instant const& at, Decayed const& d) const {
+        return speed_ * d.decay - forces_.weight() * d.once - forces_.vy()(at);
+    }
+    Decayed decayed(double t) const { return Decayed::after(forces_.drag(), t - start_); }
+    /// How long it surely flies: the time up to which it is higher than the trough can be.
+    double surely_above() const;
+
+  private:
+    Forces const& forces_;
+    double start_, speed_, level_;  // absolute
 };
 
 /// How a small change of phase and rebound at one landing changes those at the next: a 2 x 2 matrix.
@@ -45,7 +67,7 @@ class FlightChain {
         int zero = -1;
     };
 
-    explicit FlightChain(ConveyorWaves const& waves) : waves_(waves) {}
+    explicit FlightChain(Forces const& forces) : forces_(forces) {}
 
     /// Where the first flight starts; at infinity when the mass stays in contact.
     Start from(MotionStart const& start) const;
@@ -57,14 +79,13 @@ class FlightChain {
     Sensitivity sensitivity(Hop const& hop, double start_rate) const;
 
   private:
-    struct Ballistic;
     Start from_contact(Instant const& at) const;
     Hop flight(Start const& start) const;
     bool short_flight(Start const& start, Hop& hop) const;
     double lowest(Ballistic const& path, double low, double high) const;
     Hop landing(Start const& start, Ballistic const& path, double low, double high) const;
 
-    ConveyorWaves const& waves_;
+    Forces const& forces_;
 };
 
 }  // namespace vibrotrough::theory::detail

@@ -1,4 +1,6 @@
-#include "theory/detail/conveyor/wave.hpp"
+#include "theory/detail/wave.hpp"
+
+#include "theory/detail/root.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -35,20 +37,15 @@ class Multiples {
     int order_ = 1;
 };
 
-/// The zero of a wave between two times at which its signs differ, by Halley's method within the bracket.
-Instant zero_between(Wave const& wave, double low, double high, Instant here, bool rises) {
-    for (int i = 0; i < 200; ++i) {
-        double const value = wave(here), rate = wave.rate(here), bend = wave.bend(here) / rate;
-        ((value > 0) == rises ? high : low) = here.t;
-        double const newton = -value / rate, step = newton / (1 + newton * bend / 2);
-        double next = here.t + step;
-        bool const inside = std::abs(newton * bend) < 1 && next >= low && next <= high;
-        if (inside && std::abs(step) * std::max(1.0, std::abs(bend)) < root_step) return shifted(here, step);
-        if (!inside || i > 20) next = low + (high - low) / 2;
-        if (high - low <= 4e-16 * (1 + here.t) || next == here.t) break;
-        here = Instant::at(next);
-    }
-    return here;
+/// The zero of a wave between two times at which its signs differ.
+Instant zero_between(Wave const& wave, double low, double high, bool rises) {
+    double const sign = rises ? -1 : 1;
+    Instant here{};
+    auto const derivatives = [&](double t) {
+        here = Instant::at(t);
+        return Derivatives{sign * wave(here), sign * wave.rate(here), sign * wave.bend(here)};
+    };
+    return instant_at(falling_zero(derivatives, low, high, low + (high - low) / 2), here);
 }
 
 }  // namespace
@@ -70,6 +67,44 @@ double Wave::sum(Instant const& i) const {
 template double Wave::sum<0>(Instant const&) const;
 template double Wave::sum<1>(Instant const&) const;
 template double Wave::sum<2>(Instant const&) const;
+
+void Wave::set_sum(double a, Wave const& f, double b, Wave const& g) {
+    constant = a * f.constant + b * g.constant;
+    sine = a * f.sine + b * g.sine;
+    cosine = a * f.cosine + b * g.cosine;
+    overtones.resize(f.overtones.size());
+    for (std::size_t i = 0; i < overtones.size(); ++i) {
+        Overtone const &p = f.overtones[i], &q = g.overtones[i];
+        overtones[i] = {p.order, a * p.sine + b * q.sine, a * p.cosine + b * q.cosine};
+    }
+}
+
+/// @param factors  p and q of p f + q f' for an order k
+template <class Factors>
+void Wave::set(Wave const& f, Factors const& factors) {
+    auto const turned = [&](Overtone const& o) {
+        double const k = o.order;
+        auto const [p, q] = factors(k);
+        return Overtone{o.order, p * o.sine - q * k * o.cosine, p * o.cosine + q * k * o.sine};
+    };
+    Overtone const fundamental = turned({1, f.sine, f.cosine});
+    constant = 0;
+    sine = fundamental.sine;
+    cosine = fundamental.cosine;
+    overtones.resize(f.overtones.size());
+    std::transform(f.overtones.begin(), f.overtones.end(), overtones.begin(), turned);
+}
+
+void Wave::set_derivative(double second, double first, Wave const& f) {
+    set(f, [&](double k) { return std::pair(-second * k * k, first); });
+}
+
+void Wave::set_response(double kappa, Wave const& f) {
+    set(f, [&](double k) {
+        double const size = kappa * kappa + k * k;
+        return std::pair(kappa / size, -1 / size);
+    });
+}
 
 double Wave::bound() const {
     double bound = std::hypot(sine, cosine);
@@ -93,12 +128,10 @@ void Crossings::find_of_sine(Wave const& wave) {
     }
     double const m = -wave.constant / size, r = std::sqrt((1 - m) * (1 + m));
     double const cosine = wave.sine / size, sine = wave.cosine / size;
-    for (double const side : {r, -r}) {  // it rises where cos(t + phi) is positive
-        double const s = m * cosine - side * sine, c = side * cosine + m * sine;
-        double t = std::atan2(s, c);
-        if (t < 0) t += two_pi;
-        zeros_.push_back({t, s, c});
-    }
+    double const phase = sine == 0 && cosine > 0 ? 0 : std::atan2(sine, cosine), rise = std::atan2(m, r);
+    auto const within_cycle = [](double t) { return t < 0 ? t + two_pi : t < two_pi ? t : t - two_pi; };
+    zeros_.push_back({within_cycle(rise - phase), m * cosine - r * sine, r * cosine + m * sine});
+    zeros_.push_back({within_cycle(pi - rise - phase), m * cosine + r * sine, m * sine - r * cosine});
     positive_at_start_ = zeros_[1].t < zeros_[0].t;  // the first zero is the one where it falls
     if (positive_at_start_) std::swap(zeros_[0], zeros_[1]);
 }
@@ -132,7 +165,7 @@ void Crossings::find_between(Wave const& wave, double bound, Node a, Node b) {
     Instant const middle = Instant::at(a.t + h / 2);
     bool const monotone = std::abs(wave.rate(middle)) > bound * h / 2;
     if (monotone || h < touching) {
-        if (changes) zeros_.push_back(zero_between(wave, a.t, b.t, middle, b.value >= 0));
+        if (changes) zeros_.push_back(zero_between(wave, a.t, b.t, b.value >= 0));
         return;
     }
     Node const m{middle.t, wave(middle)};
@@ -142,7 +175,8 @@ void Crossings::find_between(Wave const& wave, double bound, Node a, Node b) {
 
 Crossings::Section Crossings::at(double t) const {
     if (zeros_.empty()) return {positive_at_start_, {HUGE_VAL, 0, 1}, 0};
-    double const base = two_pi * std::floor(t * (1 / two_pi)), passed = t - base + tolerance(t);
+    double const base = t >= 0 && t < two_pi ? 0 : two_pi * std::floor(t * (1 / two_pi));
+    double const passed = t - base + tolerance(t);
     std::size_t i = 0;
     while (i < zeros_.size() && zeros_[i].t <= passed) ++i;
     double shift = base;

@@ -1,13 +1,15 @@
-#include "theory/detail/conveyor/normal_orbit.hpp"
+#include "theory/detail/normal_orbit.hpp"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace vibrotrough::theory::detail {
 namespace {
 
-constexpr double state_match = 1e-11;  // of phase and rate, from period to period
-constexpr int longest_normal_period = 64, most_normal_cycles = 3000;
+// Of phase and rate, from period to period. A motion beside a change of its period settles slowly: it has the
+// first half of the flights for the closer match.
+constexpr double close_match = 1e-13, state_match = 1e-11;
+// A motion is followed for so many cycles, and for as many flights where these are longer.
+constexpr int longest_normal_period = 64, most_normal = 3000;
 // A motion is chaotic if small changes grow by this factor between these cycles.
 constexpr double chaotic_growth = 1e10;
 constexpr int chaos_from = 500, chaos_to = 1000;
@@ -25,100 +27,27 @@ double duration(Hop const& hop) {
     return hop.leave.t - hop.start.t;
 }
 
-// What is said of cycles holds for flights of up to this duration, and for restitutions up to the second
-// number: beyond, the energy settles over more impacts than a hundred cycles have.
-constexpr double ordinary_flight = 16 * two_pi, lively = 0.95, settling_cycles = 100;  // rad, 1, cycles
-constexpr double longest_stretch = 5e5;
-
-/// By how much the restitution stretches the times in which a motion settles.
-double stretch_by(ConveyorWaves const& waves) {
-    double const e = waves.restitution();
-    if (e <= lively) return 1;
-    // The velocity of a rebound W changes to e W + (1 + e) V, with the velocity V of the trough.
-    double const impacts = 1 / (1 - e * e), rebound = waves.vy().bound() * std::sqrt((1 + e) / (1 - e) / 2);
-    double const flight = rebound / waves.weight() / pi;  // cycles
-    return std::clamp(std::ceil(5 * impacts * flight / settling_cycles), 1.0, longest_stretch);
-}
-
-double longest_return(double stretch) {
-    return two_pi * (longest_normal_period + 0.5) * stretch;
-}
-
 /// The number of hops after which the phase of the landing and the rebound repeat; 0 when they do not.
 /// @param since  the first hop after the last contact
-/// @param most   rad, the longest period
-std::size_t hops_to_return(std::vector<Hop> const& hops, std::size_t since, double most) {
+/// @param match  by what they may differ
+std::size_t hops_to_return(std::vector<Hop> const& hops, std::size_t since, double match) {
+    constexpr double longest = two_pi * (longest_normal_period + 0.5);
     Hop const& now = hops.back();
     double elapsed = 0;
-    for (std::size_t k = 1; k + since < hops.size() && elapsed < most; ++k) {
+    for (std::size_t k = 1; k + since < hops.size() && (elapsed < longest || k <= longest_normal_period);
+         ++k) {
         Hop const& earlier = hops[hops.size() - 1 - k];
         elapsed += duration(earlier);
-        if (!(std::abs(now.rebound - earlier.rebound) < state_match)) continue;
-        if (!(difference(now, earlier) < state_match)) continue;
+        if (!(std::abs(now.rebound - earlier.rebound) < match) || !(difference(now, earlier) < match)) continue;
         for (std::size_t shorter = 1; shorter < k; ++shorter) {
             // An alternating approach meets the tolerance for 2 before it does for 1.
-            if (k % shorter == 0 && difference(now, hops[hops.size() - 1 - shorter]) < 1e3 * state_match)
+            if (k % shorter == 0 && difference(now, hops[hops.size() - 1 - shorter]) < 1e3 * match)
                 return shorter;
         }
         return k;
     }
     return 0;
 }
-
-/// Whether a rebound is that of an earlier hop, as in nearly no hop of a motion without a period: only then
-/// is hops_to_return() worth its cost. The rebounds lie side by side, so that the compiler compares several
-/// at once. Where they are many, a bit for each 1e-9 (by its remainder) says that most have no equal.
-class Rebounds {
-  public:
-    /// @param memory, seen  for the rebounds of all hops
-    Rebounds(std::vector<double>& memory, std::vector<bool>& seen) : all_(memory), seen_(seen) {
-        all_.clear();
-    }
-
-    /// Adds the last of the hops.
-    /// @param since  the first hop after the last contact
-    /// @param most   rad, the longest period
-    bool repeat(std::vector<Hop> const& hops, std::size_t since, double most) {
-        double const now = hops.back().rebound;
-        std::size_t const count = all_.size();
-        for (; oldest_ < count; ++oldest_) {
-            double const after = elapsed_ - duration(hops[oldest_]);
-            if (after < most + 1) break;
-            elapsed_ = after;
-        }
-        if (count == few) {
-            seen_.assign(places, false);
-            for (double const earlier : all_) seen_[place(step(earlier))] = true;
-        }
-        std::int64_t near = 0;
-        if (count < few || may_repeat(step(now))) {
-            for (std::size_t i = std::max(oldest_, since); i < count; ++i)
-                near += static_cast<std::int64_t>(std::abs(all_[i] - now) < state_match);
-        }
-        if (count >= few) seen_[place(step(now))] = true;
-        all_.push_back(now);
-        elapsed_ += duration(hops.back());
-        return near > 0;
-    }
-
-  private:
-    static constexpr std::size_t few = 500;  // so few are compared faster than the bits are cleared
-    static constexpr std::size_t places = std::size_t{1} << 20;
-    static std::int64_t step(double rebound) {
-        return static_cast<std::int64_t>(std::min(rebound, 1e9) * 1e9);
-    }
-    static std::size_t place(std::int64_t k) {
-        return (static_cast<std::uint64_t>(k) * 0x9E3779B97F4A7C15U >> 32U) % places;
-    }
-    bool may_repeat(std::int64_t k) const {
-        return seen_[place(k)] || seen_[place(k - 1)] || seen_[place(k + 1)];
-    }
-
-    std::vector<double>& all_;
-    std::vector<bool>& seen_;
-    std::size_t oldest_ = 0;  ///< that counts
-    double elapsed_ = 0;      ///< from its start to the end of the last one
-};
 
 /// The growth of small changes, which may exceed the range of numbers.
 class Growth {
@@ -174,7 +103,7 @@ FlightChain::Start with_rounding(FlightChain::Start start, std::size_t number) {
     return start;
 }
 
-void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, NormalOrbit& orbit,
+void find_normal_orbit(Forces const& forces, MotionStart const& start, NormalOrbit& orbit,
                        std::vector<std::size_t> const* after_zero) {
     orbit.hops.clear();
     orbit.again.clear();
@@ -182,12 +111,11 @@ void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, Nor
     orbit.cycles = 0;
     orbit.in_doubt = false;
     orbit.joined = never;
-    orbit.stretch = stretch_by(waves);
     orbit.begin = start.at;
-    FlightChain const chain(waves);
+    FlightChain const chain(forces);
     FlightChain::Start next = chain.from(start);
     orbit.in_contact = !std::isfinite(next.at.t);
-    orbit.left_at.assign(waves.presses().count(), never);
+    orbit.left_at.assign(forces.presses().count(), never);
     if (orbit.in_contact) {
         orbit.cycles = 1;
         return;
@@ -199,8 +127,11 @@ void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, Nor
     double chaos_start = HUGE_VAL, peak = 1;  // of the growth since the last contact
     bool irregular = false;
     std::size_t since = 0;  // the last contact
-    Rebounds rebounds(orbit.rebounds, orbit.seen);
-    for (double elapsed = next.at.t; elapsed < two_pi * most_normal_cycles * orbit.stretch;) {
+    double elapsed = next.at.t;
+    auto const has_followed = [&](int count) {
+        return elapsed > two_pi * count && orbit.hops.size() > static_cast<std::size_t>(count);
+    };
+    while (!has_followed(most_normal)) {
         if (next.zero >= 0) {
             if (after_zero != nullptr) orbit.joined = (*after_zero)[static_cast<std::size_t>(next.zero)];
             if (orbit.joined != never) break;
@@ -209,7 +140,7 @@ void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, Nor
             if (returns && peak < hopeless_growth) {
                 orbit.first = before;
                 orbit.cycles = cycles_from(orbit.hops, before);
-                orbit.in_doubt = peak >= most_growth;
+                orbit.in_doubt = peak >= most_growth && forces.restitution() > 0;
                 if (orbit.in_doubt) fly_again(chain, next, orbit);
                 break;
             }
@@ -229,17 +160,16 @@ void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, Nor
             break;
         }
         elapsed += duration(hop);
-        orbit.stretch = std::max(orbit.stretch, (hop.end.t - hop.start.t) / ordinary_flight);
         growth.multiply(chain.sensitivity(hop, from.rate));
         if (peak < hopeless_growth) peak = std::max(peak, growth.factor());
-        if (chaos_start == HUGE_VAL && elapsed > two_pi * chaos_from * orbit.stretch)
+        if (chaos_start == HUGE_VAL && has_followed(chaos_from))
             chaos_start = growth.logarithm();
-        if (elapsed > two_pi * chaos_to * orbit.stretch &&
-            (irregular || growth.logarithm() - chaos_start > std::log(chaotic_growth)))
-            break;
-        double const most = longest_return(orbit.stretch);
-        bool const returned = rebounds.repeat(orbit.hops, since, most);
-        std::size_t const k = next.zero >= 0 || !returned ? 0 : hops_to_return(orbit.hops, since, most);
+        // Where rounding has decided what follows a contact, the motion may still end elsewhere.
+        bool const chaotic = growth.logarithm() - chaos_start > std::log(chaotic_growth);
+        if (has_followed(chaos_to) && chaotic && !irregular) break;
+        if (next.zero >= 0) continue;
+        double const match = has_followed(most_normal / 2) ? state_match : close_match;
+        std::size_t const k = hops_to_return(orbit.hops, since, match);
         if (k > 0) {
             orbit.first = orbit.hops.size() - k;
             orbit.cycles = cycles_from(orbit.hops, orbit.first);

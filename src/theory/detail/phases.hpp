@@ -1,7 +1,8 @@
 #pragma once
 
-#include "theory/detail/common/fixed_point.hpp"
-#include "theory/detail/conveyor/normal_orbit.hpp"
+#include "theory/detail/fixed_point.hpp"
+#include "theory/detail/root.hpp"
+#include "theory/detail/normal_orbit.hpp"
 
 #include <vector>
 
@@ -17,6 +18,11 @@ struct Leap {
     double impulse;       ///< by which the landing can reduce the slip
 };
 
+/// The leap of a flight from one time to another, without its landing (Eq. 16).
+Leap leap(Forces const& forces, Instant const& from, Instant const& to, Decayed const& decayed);
+/// The leap of a whole flight.
+Leap leap(Forces const& forces, Hop const& hop);
+
 /// The end of a slide.
 struct SlideEnd {
     Instant at;
@@ -26,10 +32,34 @@ struct SlideEnd {
     double decay, reach;  ///< derivatives of the speed and of the distance with respect to the speed before
 };
 
+/// A slide in one direction (Eqs. 6, 10, 11): w' = -kappa w + drive.
+class SlideMotion {
+  public:
+    /// @param w0  speed at the start
+    SlideMotion(Sliding const& forces, double kappa, double w0, Instant const& from)
+        : forces_(forces), drag_(kappa), start_(from.t), free_(w0 - forces.response(from)),
+          first_path_(forces.path(from)) {}
+
+    Decayed decayed(double t) const { return Decayed::after(drag_, t - start_); }
+    double speed(Instant const& at, Decayed const& d) const {
+        return forces_.response(at) + free_ * d.decay + forces_.drive.constant * d.once;
+    }
+    double moved(Instant const& at, Decayed const& d) const {
+        return forces_.path(at) - first_path_ + free_ * d.once + forces_.drive.constant * d.twice;
+    }
+    SlideEnd end(Instant const& at, bool stopped) const;
+    /// Where the speed, which falls between low and high, is zero.
+    SlideEnd stop_between(double low, double high, double guess) const;
+
+  private:
+    Sliding const& forces_;
+    double drag_, start_, free_, first_path_;
+};
+
 /// The slides and rests of one conveyor in contact.
 class ContactLaw {
   public:
-    explicit ContactLaw(ConveyorWaves const& waves) : waves_(waves) {}
+    explicit ContactLaw(Forces const& forces) : forces_(forces) {}
 
     /// The slide with speed w0 from `from`, at most to `limit`.
     /// @param hint  a guess of its duration, or `unknown`; it changes the cost but not the result
@@ -45,24 +75,19 @@ class ContactLaw {
     /// The derivative of the velocity past a stop with respect to that before: 0 when the mass rests.
     double slope_past(Sliding const& slide, Instant const& at) const;
     bool slides_back(Sliding const& slide, double t) const {
-        return waves_.slide(-slide.sign).starts().at(t).positive;
+        return forces_.slide(-slide.sign).starts().at(t).positive;
     }
     /// The velocity at a take-off from the slide or rest that came last: a rule of Table 1 of the paper,
     /// which is not physical, gives a mass that slides back after its landing the velocity of the trough.
     Tangent taking_off(Tangent const& s, PhaseKind last) const {
-        bool const by_rule = waves_.starts_by_rule() && last == PhaseKind::negative_slide_after_landing;
+        bool const by_rule = forces_.starts_by_rule() && last == PhaseKind::negative_slide_after_landing;
         return by_rule ? Tangent{0, 0} : s;
     }
-    ConveyorWaves const& waves() const { return waves_; }
+    Forces const& forces() const { return forces_; }
 
   private:
-    struct Speed;
-    bool stop_between(Speed const& speed, double low, double high, double guess, SlideEnd& end) const;
-
-    ConveyorWaves const& waves_;
+    Forces const& forces_;
 };
-
-Leap leap(ConveyorWaves const& waves, Hop const& hop);
 
 /// Follows a contact from `at` to `end`. Calls `record(kind, from, to, v, displacement, derivative)` for each
 /// phase, with the slip velocity at its start and the derivative of the displacement with respect to the
@@ -86,9 +111,13 @@ Tangent follow_contact(ContactLaw const& law, Tangent s, Instant at, Instant con
             }
             sliding = start.sign;
         }
-        Sliding const& slide = law.waves().slide(sliding != 0 ? sliding : s.v);
-        SlideEnd const to = law.slide(slide, std::abs(s.v), at, end, hints.guess());
-        hints.learn(to.stopped ? to.at.t - at.t : unknown);
+        Sliding const& slide = law.forces().slide(sliding != 0 ? sliding : s.v);
+        double const speed = std::abs(s.v);
+        SlideEnd const to = law.slide(slide, speed, at, end, hints.guess(speed));
+        if (to.stopped)
+            hints.learn(to.at.t - at.t, speed, -to.decay / slide.drive(to.at));
+        else
+            hints.learn(unknown, 0, 0);
         record(slide_kind(slide.sign > 0, landed), at.t, to.at.t, s.v, slide.sign * to.moved,
                s.slope * to.reach);
         landed = false;

@@ -1,12 +1,17 @@
-#include "theory/detail/conveyor/model.hpp"
+#include "conveyor_model.hpp"
 
-#include <cmath>
+#include <numbers>
 
 namespace vibrotrough::theory {
 namespace {
 
-using detail::Term;
-using detail::Trigonometric;
+constexpr double quarter = std::numbers::pi / 2;
+
+/// p sin(x) + q cos(x) as one sine.
+Term combined(double order, double p, double q, double phase) {
+    if (q == 0) return {order, p, phase};
+    return {order, std::hypot(p, q), phase + std::atan2(q, p)};
+}
 
 /// (1 - exp(-kappa h)) / kappa
 double once_decayed(double kappa, double h) {
@@ -26,6 +31,8 @@ double twice_decayed(double kappa, double h) {
     return sum;
 }
 
+}  // namespace
+
 /// The position of the trough; an acceleration -amplitude sin(order t + phase) gives amplitude / order^2
 /// sin(...).
 Trigonometric trough(double ratio, double phase, std::vector<Harmonic> const& harmonics) {
@@ -36,7 +43,42 @@ Trigonometric trough(double ratio, double phase, std::vector<Harmonic> const& ha
     return Trigonometric(std::move(terms));
 }
 
-}  // namespace
+Trigonometric Trigonometric::differentiated(double second, double first) const {
+    std::vector<Term> terms;
+    for (Term const& t : terms_) {
+        terms.push_back(combined(t.order, -second * t.order * t.order * t.amplitude,
+                                 first * t.order * t.amplitude, t.phase));
+    }
+    return Trigonometric(std::move(terms));
+}
+
+Trigonometric Trigonometric::driven(double kappa) const {
+    std::vector<Term> terms;
+    for (Term const& t : terms_) {
+        double const size = kappa * kappa + t.order * t.order;
+        terms.push_back(
+            combined(t.order, kappa * t.amplitude / size, -t.order * t.amplitude / size, t.phase));
+    }
+    return Trigonometric(std::move(terms));
+}
+
+Trigonometric Trigonometric::integrated() const {
+    std::vector<Term> terms;
+    for (Term const& t : terms_) terms.push_back({t.order, t.amplitude / t.order, t.phase - quarter});
+    return Trigonometric(std::move(terms));
+}
+
+Trigonometric Trigonometric::operator*(double factor) const {
+    std::vector<Term> terms = terms_;
+    for (Term& t : terms) t.amplitude *= factor;
+    return Trigonometric(std::move(terms));
+}
+
+Trigonometric Trigonometric::operator+(Trigonometric const& other) const {
+    std::vector<Term> terms = terms_;
+    terms.insert(terms.end(), other.terms_.begin(), other.terms_.end());
+    return Trigonometric(std::move(terms));
+}
 
 DrivenVelocity::DrivenVelocity(double kappa, double constant, Trigonometric const* particular,
                                Trigonometric const* integral, double t0, double u0)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/detail/common/instant.hpp"
+#include "theory/detail/instant.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -35,6 +35,13 @@ class Wave {
         double const fundamental = -sine * i.sine - cosine * i.cosine;
         return overtones.empty() ? fundamental : fundamental + sum<2>(i);
     }
+    /// Becomes a f + b g. The waves of one conveyor have the same orders.
+    void set_sum(double a, Wave const& f, double b, Wave const& g);
+    /// Becomes second f'' + first f'.
+    void set_derivative(double second, double first, Wave const& f);
+    /// Becomes the bounded solution of u' = -kappa u + (f without its constant); without kappa an
+    /// antiderivative.
+    void set_response(double kappa, Wave const& f);
     /// An upper bound of what is added to the constant.
     double bound() const;
     /// An upper bound of |second derivative|.
@@ -44,6 +51,8 @@ class Wave {
   private:
     template <int derivative>
     double sum(Instant const& i) const;
+    template <class Factors>
+    void set(Wave const& f, Factors const& factors);
 };
 
 /// The zeros of a wave, from one to the next.

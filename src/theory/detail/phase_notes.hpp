@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/detail/conveyor/slip_map.hpp"
+#include "theory/detail/phases.hpp"
 #include "theory/efficiency.hpp"
 
 #include <vector>
@@ -25,7 +25,7 @@ class PhaseNotes {
     /// The mode of a period.
     ModeCode mode(NormalOrbit const& orbit) const;
     /// Sets the pieces and impacts of `motion`, and, if it is periodic, its phases, mode and flight number.
-    void describe(ConveyorWaves const& waves, NormalOrbit const& orbit, ConveyorMotion& motion) const;
+    void describe(Forces const& forces, NormalOrbit const& orbit, ConveyorMotion& motion) const;
 
   private:
     struct Note {

@@ -1,25 +1,74 @@
 #pragma once
 
 #include "theory/conveyor.hpp"
-#include "theory/detail/conveyor/trigonometric.hpp"
+
+#include <cmath>
+#include <utility>
+#include <vector>
 
 namespace vibrotrough::theory {
+
+/// amplitude sin(order t + phase)
+struct Term {
+    double order, amplitude, phase;
+};
+
+/// A sum of such terms, each evaluated at t in rad.
+class Trigonometric {
+  public:
+    Trigonometric() = default;
+    explicit Trigonometric(std::vector<Term> terms) : terms_(std::move(terms)) {}
+
+    double operator()(double t) const {
+        double sum = 0;
+        for (Term const& term : terms_) sum += term.amplitude * std::sin(term.order * t + term.phase);
+        return sum;
+    }
+    double rate(double t) const {
+        double sum = 0;
+        for (Term const& term : terms_)
+            sum += term.amplitude * term.order * std::cos(term.order * t + term.phase);
+        return sum;
+    }
+    /// An upper bound of |value|.
+    double bound() const { return derivative_bound(0); }
+    /// An upper bound of |n-th derivative|.
+    double derivative_bound(int n) const {
+        double sum = 0;
+        for (Term const& term : terms_) sum += std::abs(term.amplitude) * std::pow(term.order, n);
+        return sum;
+    }
+    /// The linear combination second (d/dt)^2 + first d/dt applied to the sum.
+    Trigonometric differentiated(double second, double first) const;
+    /// The bounded solution u of u' = -kappa u + (this sum).
+    Trigonometric driven(double kappa) const;
+    /// An antiderivative.
+    Trigonometric integrated() const;
+    Trigonometric operator*(double factor) const;
+    Trigonometric operator+(Trigonometric const& other) const;
+
+  private:
+    std::vector<Term> terms_;
+};
+
+/// The position of the trough along or normal to itself.
+Trigonometric trough(double ratio, double phase, std::vector<Harmonic> const& harmonics);
 
 /// A velocity that obeys u' = -kappa u + constant + (a trigonometric sum), in closed form from u(t0) = u0.
 class DrivenVelocity {
   public:
     /// @param particular  the bounded solution for the sum; nullptr if there is no sum
     /// @param integral    an antiderivative of `particular`
-    DrivenVelocity(double kappa, double constant, detail::Trigonometric const* particular,
-                   detail::Trigonometric const* integral, double t0, double u0);
+    DrivenVelocity(double kappa, double constant, Trigonometric const* particular,
+                   Trigonometric const* integral, double t0, double u0);
     double operator()(double t) const;
     /// The distance travelled from t0 to t.
     double travel(double t) const;
 
   private:
     double kappa_, constant_, t0_, free_;
-    detail::Trigonometric const* particular_;
-    detail::Trigonometric const* integral_;
+    Trigonometric const* particular_;
+    Trigonometric const* integral_;
 };
 
 /// The analytic solution of each phase of a Conveyor. Lengths are in r cos(beta) along the trough and r
@@ -54,15 +103,15 @@ class ConveyorModel {
   private:
     struct Slide {
         double constant = 0;  // of u'
-        detail::Trigonometric particular, integral;
+        Trigonometric particular, integral;
     };
     Slide const& slide(double sign) const { return sign > 0 ? positive_ : negative_; }
     Slide make_slide(double sign) const;
 
     Conveyor conveyor_;
-    detail::Trigonometric x_, y_, vx_, vy_, ax_, ay_;
+    Trigonometric x_, y_, vx_, vy_, ax_, ay_;
     double weight_, gravity_, drag_, kinetic_;
-    detail::Trigonometric normal_, needed_;
+    Trigonometric normal_, needed_;
     Slide positive_, negative_;
 };
 

@@ -1,5 +1,6 @@
-#include "theory/detail/conveyor/flight_chain.hpp"
+#include "theory/detail/flights.hpp"
 
+#include "theory/detail/root.hpp"
 #include "theory/errors.hpp"
 
 #include <algorithm>
@@ -20,40 +21,24 @@ Instant series_shifted(Instant const& a, double d) {
 
 }  // namespace
 
-/// The gap above the trough after a take-off: g'' + kappa g' = -N.
-struct FlightChain::Ballistic {
-    ConveyorWaves const& waves;
-    Instant start;
-    double speed, level;  // absolute, at the start
-
-    Ballistic(ConveyorWaves const& w, Start const& s)
-        : waves(w), start(s.at), speed(w.vy()(s.at) + s.rate), level(w.y()(s.at)) {}
-
-    double gap(Instant const& at, Decayed const& d) const {
-        return speed * d.once - waves.weight() * d.twice - (waves.y()(at) - level);
-    }
-    double rate(Instant const& at, Decayed const& d) const {
-        return speed * d.decay - waves.weight() * d.once - waves.vy()(at);
-    }
-    Decayed decayed(double t) const { return Decayed::after(waves.drag(), t - start.t); }
-    /// The time up to which the mass is higher than the trough can be; the start when it never is.
-    double above_all(double highest) const {
-        auto const is_above = [&](double h) {
-            Decayed const d = Decayed::after(waves.drag(), h);
-            return level + speed * d.once - waves.weight() * d.twice > highest;
-        };
-        // Without drag it falls back to its level at the second time, and with drag before.
-        double high = 2 * speed / waves.weight(), low = high / 2;
-        while (low > 1 && !is_above(low)) low /= 2;
-        if (!is_above(low)) return start.t;
-        while (is_above(high)) high *= 2;
-        while (high - low > 1) (is_above((low + high) / 2) ? low : high) = (low + high) / 2;
-        return start.t + low;
-    }
-};
+double Ballistic::surely_above() const {
+    double const highest = forces_.y().bound(), weight = forces_.weight();
+    auto const is_below = [&](double h) {
+        Decayed const d = Decayed::after(forces_.drag(), h);
+        return level_ + speed_ * d.once - weight * d.twice > highest ? -1.0 : 1.0;
+    };
+    if (!(2 * speed_ > weight * long_flight)) return 0;
+    // Without drag it falls back to its level at the second time, and with drag before.
+    double high = 2 * speed_ / weight, low = high / 2;
+    while (low > 1 && is_below(low) > 0) low /= 2;
+    if (is_below(low) > 0) return 0;
+    while (is_below(high) < 0) high *= 2;
+    auto const close = [](double a, double b) { return b - a < 1; };
+    return boost::math::tools::bisect(is_below, low, high, close).first;
+}
 
 FlightChain::Start FlightChain::from_contact(Instant const& at) const {
-    auto section = waves_.presses().at(at.t);
+    auto section = forces_.presses().at(at.t);
     if (!section.positive) return {at, 0, -1};  // the trough falls away at once
     return {section.end, 0, static_cast<int>(section.next)};
 }
@@ -64,8 +49,8 @@ FlightChain::Start FlightChain::from(MotionStart const& start) const {
 
 Hop FlightChain::fly(Start const& start, Start& next) const {
     Hop hop = flight(start);
-    double const bounce = waves_.restitution() * hop.approach;
-    hop.rebound = bounce > waves_.slowest_rebound() ? bounce : 0;
+    double const bounce = forces_.restitution() * hop.approach;
+    hop.rebound = bounce > forces_.slowest_rebound() ? bounce : 0;
     next = hop.rebound > 0 ? Start{hop.end, hop.rebound, -1} : from_contact(hop.end);
     hop.leave = next.at;
     if (!std::isfinite(next.at.t)) return hop;
@@ -76,12 +61,12 @@ Hop FlightChain::fly(Start const& start, Start& next) const {
 /// A flight so short that the gap is a polynomial: no sine is needed, and no digits are lost.
 bool FlightChain::short_flight(Start const& start, Hop& hop) const {
     if (!(start.rate > 0)) return false;
-    Wave const& normal = waves_.normal_force();
+    Wave const& normal = forces_.normal_force();
     double const force = normal(start.at);
     double h = 2 * start.rate / force;
     double const range = series_range / normal.highest_order();
     if (!(force > 0 && h < range)) return false;
-    double const k = waves_.drag();
+    double const k = forces_.drag();
     double const g2 = -force - k * start.rate, g3 = -normal.rate(start.at) - k * g2;
     double const g4 = -normal.bend(start.at) - k * g3;
     // The next derivatives: those of the fundamental dominate, and the rest is below rounding in this range.
@@ -105,51 +90,38 @@ bool FlightChain::short_flight(Start const& start, Hop& hop) const {
     return true;
 }
 
-/// The gap falls from a positive to a zero or negative value between low and high and has one zero there:
-/// Halley's method within the bracket.
+/// The flight whose gap falls to zero between low and high.
 Hop FlightChain::landing(Start const& start, Ballistic const& path, double low, double high) const {
-    Wave const& normal = waves_.normal_force();
-    double t = high;
-    if (start.rate > 0) {
-        double const guess = start.at.t + 2 * start.rate / normal(start.at);
-        if (guess > low && guess < high) t = guess;
-    }
-    for (int i = 0; i < 200; ++i) {
-        Instant const here = Instant::at(t);
+    Wave const& normal = forces_.normal_force();
+    Instant here{};
+    auto const derivatives = [&](double t) {
+        here = Instant::at(t);
         Decayed const d = path.decayed(t);
-        double const gap = path.gap(here, d), rate = path.rate(here, d);
-        double const bend = -(normal(here) + waves_.drag() * rate) / rate;
-        double const newton = -gap / rate, step = newton / (1 + newton * bend / 2);
-        (gap > 0 ? low : high) = t;
-        double next = t + step;
-        // Beside the lowest gap, where the rate is zero, Halley's step is short and leads nowhere.
-        bool const inside = rate < 0 && std::abs(newton * bend) < 1 && next >= low && next <= high;
-        if (inside && std::abs(step) * std::max(1.0, std::abs(bend)) < root_step) {
-            Instant const end = shifted(here, step);
-            Decayed const to_end = path.decayed(end.t);
-            return {start.at, end, {}, std::max(-path.rate(end, to_end), 0.0), 0, to_end};
-        }
-        if (!inside || i > 20) next = low + (high - low) / 2;
-        if (high - low <= 4e-16 * (1 + t) || next == t)
-            return {start.at, here, {}, std::max(-rate, 0.0), 0, d};
-        t = next;
+        double const rate = path.rate(here, d);
+        return Derivatives{path.gap(here, d), rate, -normal(here) - forces_.drag() * rate};
+    };
+    double guess = start.at.t + 2 * start.rate / normal(start.at);
+    if (start.rate == 0) {
+        // From contact: a fit to the flights of a plain sine, which depend on this ratio only (Eqs. 12-14).
+        double const q = -normal.rate(start.at) / normal.bend(start.at);
+        guess = start.at.t + 4 * q / (1 + 0.21 * q + 0.035 * q * q);
     }
-    throw PhaseError("the landing was not found");
+    // The gap falls near the end, and is not yet at its lowest.
+    if (!(guess > low && guess < high)) guess = high - (high - low) / 10;
+    Instant const end = instant_at(falling_zero(derivatives, low, high, guess), here);
+    Decayed const d = path.decayed(end.t);
+    return {start.at, end, {}, std::max(-path.rate(end, d), 0.0), 0, d};
 }
 
-/// The time of the lowest gap: the zero of its rate, which rises from negative to positive.
+/// The time of the lowest gap: its rate rises from negative to positive.
 double FlightChain::lowest(Ballistic const& path, double low, double high) const {
-    double t = low + (high - low) / 2;
-    for (int i = 0; i < 200; ++i) {
+    Wave const& normal = forces_.normal_force();
+    auto const derivatives = [&](double t) {
         Instant const here = Instant::at(t);
-        double const rate = path.rate(here, path.decayed(t));
-        (rate > 0 ? high : low) = t;
-        double next = t + rate / (waves_.normal_force()(here) + waves_.drag() * rate);
-        if (!(next > low && next < high)) next = low + (high - low) / 2;
-        if (std::abs(next - t) <= 4e-16 * (1 + t)) break;
-        t = next;
-    }
-    return t;
+        double const rate = path.rate(here, path.decayed(t)), bend = normal(here) + forces_.drag() * rate;
+        return Derivatives{-rate, bend, normal.rate(here) - forces_.drag() * bend};
+    };
+    return falling_zero(derivatives, low, high, low + (high - low) / 2);
 }
 
 // Between the zeros of the normal force N, g' exp(kappa t) is monotone, so that g' has one zero at most.
@@ -157,28 +129,25 @@ Hop FlightChain::flight(Start const& start) const {
     Hop hop{};
     bool found = short_flight(start, hop);
     if (!found) {
-        Ballistic const path(waves_, start);
-        auto section = waves_.presses().at(start.at.t);
+        Ballistic const path(forces_, start.at, 0, start.rate);
+        auto section = forces_.presses().at(start.at.t);
         if (start.rate == 0 && section.positive) {
             if (section.end.t - start.at.t > take_off_rounding)
                 throw PhaseError("a flight starts in contact");
-            waves_.presses().advance(section);
+            forces_.presses().advance(section);
         }
         double from = start.at.t, gap = 0, rate = start.rate;
-        if (waves_.presses().none()) {  // the rate only falls
+        if (forces_.presses().none()) {  // the rate only falls
             double to = from + two_pi;
             while (path.gap(Instant::at(to), path.decayed(to)) > 0) to += to - from;
             return landing(start, path, from, to);
         }
-        if (2 * path.speed > waves_.weight() * long_flight) {
-            double const above = path.above_all(waves_.y().bound());
-            if (above > from) {
-                Decayed const d = path.decayed(above);
-                from = above;
-                gap = path.gap(Instant::at(above), d);
-                rate = path.rate(Instant::at(above), d);
-                section = waves_.presses().at(above);
-            }
+        if (double const aloft = path.surely_above(); aloft > 0) {
+            from += aloft;
+            Decayed const d = path.decayed(from);
+            gap = path.gap(Instant::at(from), d);
+            rate = path.rate(Instant::at(from), d);
+            section = forces_.presses().at(from);
         }
         for (int i = 0; !found; ++i) {
             if (i > most_sections || !std::isfinite(section.end.t))
@@ -201,7 +170,7 @@ Hop FlightChain::flight(Start const& start) const {
                 from = section.end.t;
                 gap = end_gap;
                 rate = end_rate;
-                waves_.presses().advance(section);
+                forces_.presses().advance(section);
             }
         }
     }
@@ -222,12 +191,12 @@ double Sensitivity::size() const {
 // A later start by d lowers the gap by (rate d) and raises its rate by (N + kappa rate) d at the start, and
 // the landing is where the gap is zero again.
 Sensitivity FlightChain::sensitivity(Hop const& hop, double start_rate) const {
-    double const kappa = waves_.drag(), approach = std::max(hop.approach, 1e-12);
+    double const kappa = forces_.drag(), approach = std::max(hop.approach, 1e-12);
     Decayed const& d = hop.decayed;
-    double const push = waves_.normal_force()(hop.start) + kappa * start_rate;
-    double const slowing = waves_.normal_force()(hop.end) - kappa * hop.approach;
+    double const push = forces_.normal_force()(hop.start) + kappa * start_rate;
+    double const slowing = forces_.normal_force()(hop.end) - kappa * hop.approach;
     double const phase_phase = (d.once * push - start_rate) / approach, phase_rate = d.once / approach;
-    double const e = hop.rebound > 0 ? waves_.restitution() : 0;
+    double const e = hop.rebound > 0 ? forces_.restitution() : 0;
     return {phase_phase, phase_rate, e * (slowing * phase_phase - d.decay * push),
             e * (slowing * phase_rate - d.decay)};
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/point_mass.hpp"
+#include "theory/conveyor.hpp"
 
 #include <string>
 
@@ -18,8 +18,12 @@ void require_range(bool good, char const* name, double value, char const* range)
 
 /// @throws std::invalid_argument when an input is out of range
 void check_ranges(PointMass const& input);
+/// @copydoc check_ranges(PointMass const&)
+void check_ranges(Conveyor const& conveyor);
 
 /// The inputs as text from which they can be reproduced.
 std::string inputs_text(PointMass const& input);
+/// @copydoc inputs_text(PointMass const&)
+std::string inputs_text(Conveyor const& conveyor);
 
 }  // namespace vibrotrough::theory::detail

@@ -1,8 +1,7 @@
-#include "theory/detail/conveyor/solver.hpp"
+#include "theory/detail/solver.hpp"
 
-#include "theory/detail/common/fixed_point.hpp"
-#include "theory/detail/common/weak_forces.hpp"
-#include "theory/detail/conveyor/check.hpp"
+#include "theory/detail/fixed_point.hpp"
+#include "theory/detail/ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,9 +22,9 @@ constexpr double settled = 1e-11;  // change of the velocity from period to peri
 constexpr double least_linear =
     1e-6;                           // error of the velocity up to which Newton's last step is taken as exact
 constexpr double idle = 1e-9;       // share of gravity's pull by which friction may miss it as if it held it
-constexpr int longest_period = 64;  // cycles, unless flights are so long that the orbit is stretched
+constexpr int longest_period = 64;  // cycles, by the rule of Table 1
 constexpr int most_periods = 3000;  // from rest
-constexpr double repeat_match = 1e-9;  // of displacement and impact energy per cycle, period to period
+constexpr double repeat_match = 5e-10;  // of displacement and impact energy per cycle, period to period
 
 bool is_standard(MotionStart const& start) {
     return start.at.t == 0 && start.rebound == 0 && start.v == 0;
@@ -37,7 +36,7 @@ bool is_standard(MotionStart const& start) {
 Tangent ConveyorSolver::follow_period(double v) {
     notes_.clear();
     displacement_ = derivative_ = 0;
-    hints_.next = 0;
+    hints_.restart();
     std::size_t hop = orbit_.first;
     auto const record = [&](PhaseKind kind, double from, double to, double speed, double moved,
                             double derivative) {
@@ -45,7 +44,7 @@ Tangent ConveyorSolver::follow_period(double v) {
         derivative_ += derivative;
         notes_.add(kind, hop, from, to, speed, moved);
     };
-    ContactLaw const law(waves_);
+    ContactLaw const law(forces_);
     Tangent s{v, 1};
     if (orbit_.in_contact) {
         Instant const end{start_.t + two_pi, start_.sine, start_.cosine};
@@ -62,7 +61,7 @@ Tangent ConveyorSolver::follow_period(double v) {
 /// From the start of the motion to that of the period.
 Tangent ConveyorSolver::follow_from_start() {
     auto const ignore = [](PhaseKind, double, double, double, double, double) {};
-    ContactLaw const law(waves_);
+    ContactLaw const law(forces_);
     Tangent s{from_.v, 0};
     if (orbit_.in_contact && orbit_.hops.empty()) {
         if (from_.at.t == 0) return s;
@@ -78,8 +77,8 @@ Tangent ConveyorSolver::follow_from_start() {
 /// Without flights the period starts where a slide begins, so that v = 0 is exact if there is a rest before
 /// it.
 void ConveyorSolver::start_at_slide() {
-    Crossings const& forward = waves_.slide(1).starts();
-    Crossings const& starts = forward.none() ? waves_.slide(-1).starts() : forward;
+    Crossings const& forward = forces_.slide(1).starts();
+    Crossings const& starts = forward.none() ? forces_.slide(-1).starts() : forward;
     start_ = {0, 0, 1};
     for (std::size_t i = 0; i < starts.count(); ++i) {
         if (!starts.rises(i)) continue;
@@ -91,7 +90,7 @@ void ConveyorSolver::start_at_slide() {
 /// Whether a mass that changes by `drift` in a period at the slip velocity v runs away: it is so fast that
 /// nothing stops it.
 bool ConveyorSolver::is_carried_off(double v, double drift) const {
-    double const pulled = std::abs(waves_.gravity()) * two_pi * orbit_.cycles;
+    double const pulled = std::abs(forces_.gravity()) * two_pi * orbit_.cycles;
     double const least = std::min(least_drift, least_share * pulled) * std::abs(v) / fastest();
     return is_fast(v) && drift * v > 0 && !(std::abs(drift) < least);
 }
@@ -102,12 +101,12 @@ bool ConveyorSolver::is_fast(double v) const {
 }
 
 double ConveyorSolver::fastest() const {
-    return 1e4 * (1 + std::abs(waves_.vx().sine) + std::abs(waves_.vx().cosine));
+    return 1e4 * (1 + std::abs(forces_.vx().sine) + std::abs(forces_.vx().cosine));
 }
 
 /// Whether nothing stops the mass in a period, and gravity and friction cancel each other to within rounding.
 bool ConveyorSolver::persists(double v, double drift) const {
-    double const pulled = std::abs(waves_.gravity()) * two_pi * orbit_.cycles;
+    double const pulled = std::abs(forces_.gravity()) * two_pi * orbit_.cycles;
     return slope_ == 1 && std::abs(drift) <= idle * pulled + 1e-15 * (1 + std::abs(v));
 }
 
@@ -124,7 +123,7 @@ ConveyorSolver::Search ConveyorSolver::find_fixed_point(double from) {
         }
         // Where friction holds exactly what gravity pulls, any velocity persists at which nothing stops the
         // mass. From rest it comes to the slowest of them.
-        bool const idles = persists(v, drift) && v * waves_.gravity() < 0;
+        bool const idles = persists(v, drift) && v * forces_.gravity() < 0;
         return idles || is_fast(v) ? Tangent{v - std::copysign(1 + std::abs(v), v), 0} : after;
     };
     FixedPoint const found = fixed_point(map, from, velocity_tolerance);
@@ -153,7 +152,7 @@ ConveyorSolver::Search ConveyorSolver::iterate_from_start() {
         bool const plain =
             slope_ == 1 && (stride == 1 || std::abs(drift - last_drift) <= 1e-9 * (1 + std::abs(v)));
         if (plain) {
-            bool const downhill = std::abs(waves_.gravity()) > waves_.kinetic_tangent() * waves_.weight();
+            bool const downhill = std::abs(forces_.gravity()) > forces_.kinetic_tangent() * forces_.weight();
             if (downhill && std::abs(v) > 10 && drift * v > 0) return Search::runs_away;
             if (is_carried_off(v, drift)) return Search::runs_away;
             last = v;
@@ -225,11 +224,11 @@ void ConveyorSolver::repeat_orbit(std::size_t times) {
 bool ConveyorSolver::repeats() const {
     double moved = 0, impacts = 0;  // energy of the impacts of this period minus that of the next
     auto const add = [&](PhaseKind, double, double, double, double distance, double) { moved += distance; };
-    ContactLaw const law(waves_);
+    ContactLaw const law(forces_);
     Hints hints;
     Tangent s{v_, 1};
     for (Hop const& hop : orbit_.again) {
-        s = follow_hop(law, hop, leap(waves_, hop), s, hints, add);
+        s = follow_hop(law, hop, leap(forces_, hop), s, hints, add);
         impacts -= hop.approach * hop.approach;
     }
     for (std::size_t i = orbit_.first; i < orbit_.hops.size(); ++i)
@@ -239,7 +238,7 @@ bool ConveyorSolver::repeats() const {
 }
 
 Efficiency ConveyorSolver::running_away() const {
-    return {std::copysign(std::numeric_limits<double>::infinity(), -waves_.gravity()), 0, 0,
+    return {std::copysign(std::numeric_limits<double>::infinity(), -forces_.gravity()), 0, 0,
             Outcome::runs_away};
 }
 
@@ -255,25 +254,25 @@ std::optional<Efficiency> ConveyorSolver::without_motion(Conveyor const& c) cons
 }
 
 Efficiency ConveyorSolver::solve(Conveyor const& c) {
-    waves_.set(c);
+    forces_.set(c);
     hints_ = {};  // those of another point would change the last bit
-    if (!waves_.same_normal() || !orbit_known_) {
+    if (!forces_.same_normal() || !orbit_known_) {
         orbit_known_ = false;
-        find_normal_orbit(waves_, from_, orbit_, after_zero_);
+        find_normal_orbit(forces_, from_, orbit_, after_zero_);
         // Its first hop is another one when a mean was wanted; and a later point may have another start.
         orbit_known_ = is_standard(from_) && !orbit_.in_doubt;
         if (orbit_.joined != never) return {0, 0, 0, Outcome::unsettled};
     }
     if (auto const known = without_motion(c)) return *known;
-    bool const has_period = orbit_.cycles > 0 && (orbit_.cycles <= longest_period || orbit_.stretch > 1);
-    bool const by_rule = waves_.starts_by_rule(), one_friction = waves_.one_friction() && !by_rule;
+    bool const has_period = orbit_.cycles > 0;
+    bool const by_rule = forces_.starts_by_rule(), one_friction = forces_.one_friction() && !by_rule;
     leaps_.resize(orbit_.hops.size());
     if (!has_period) {
-        for (std::size_t i = 0; i < orbit_.first; ++i) leaps_[i] = leap(waves_, orbit_.hops[i]);
+        for (std::size_t i = 0; i < orbit_.first; ++i) leaps_[i] = leap(forces_, orbit_.hops[i]);
         return average(orbit_.first);
     }
     for (std::size_t i = one_friction ? orbit_.first : 0; i < orbit_.hops.size(); ++i)
-        leaps_[i] = leap(waves_, orbit_.hops[i]);
+        leaps_[i] = leap(forces_, orbit_.hops[i]);
     start_ = {0, 0, 1};
     if (one_friction && orbit_.in_contact) start_at_slide();
     Search search = Search::found;
@@ -297,7 +296,7 @@ Efficiency ConveyorSolver::operator()(Conveyor const& conveyor, MotionStart cons
     mean_ = mean;
     after_zero_ = after_zero;
     try {
-        return solve(with_noticeable_forces(conveyor));
+        return solve(conveyor);
     } catch (PhaseError const& error) {
         throw PhaseError(std::string(error.what()) + " (" + inputs_text(conveyor) + ")");
     }
@@ -308,6 +307,7 @@ ConveyorMotion ConveyorSolver::motion(Conveyor const& conveyor) {
     Efficiency const found = (*this)(conveyor);
     keep_ = false;
     ConveyorMotion answer;
+    answer.forces = std::make_shared<Forces const>(forces_);
     answer.motion = {.velocity_efficiency = found.velocity_efficiency,
                      .mode = "",
                      .phases = {},
@@ -318,7 +318,7 @@ ConveyorMotion ConveyorSolver::motion(Conveyor const& conveyor) {
     answer.half_width = found.half_width;
     if (found.outcome == Outcome::runs_away || found.outcome == Outcome::indifferent) return answer;
     if (!answer.motion.converged) answer.cycles_followed = static_cast<int>(std::lround(cycles_followed_));
-    notes_.describe(waves_, orbit_, answer);
+    notes_.describe(forces_, orbit_, answer);
     return answer;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/detail/conveyor/phase_notes.hpp"
+#include "theory/detail/phase_notes.hpp"
 #include "theory/efficiency.hpp"
 
 #include <optional>
@@ -18,9 +18,9 @@ class ConveyorSolver {
 
     /// Efficiency and mode. What was solved before does not change a bit of the answer.
     ///
-    /// Without a period it is the mean over 20 batches, after 100 cycles. They have 16 cycles each at first,
-    /// and twice as many until the half-width of the 95 % confidence interval is 0.01, at most 128. All of
-    /// these are multiples where a flight lasts more than 16 cycles or the restitution is above 0.95.
+    /// Without a period it is the mean over 20 batches, after 100 cycles. They have 16 cycles and 8 flights
+    /// each at first, and twice as many until the half-width of the 95 % confidence interval is 0.01, at most
+    /// 128.
     /// @param conveyor    its values are within their ranges
     /// @param start       the standard start, or another one
     /// @param after_zero  as in find_normal_orbit(); where the motion joins a known one, joined() says which,
@@ -31,9 +31,17 @@ class ConveyorSolver {
     std::size_t joined() const { return orbit_.joined; }
     /// The flights of the motion that was solved last.
     NormalOrbit const& orbit() const { return orbit_; }
-    ConveyorWaves const& waves() const { return waves_; }
-    /// The same answer with its phases; without a model.
+    Forces const& forces() const { return forces_; }
+    /// The same answer with its phases.
     ConveyorMotion motion(Conveyor const& conveyor);
+
+    /// What happened in a part of a motion without a period.
+    struct Batch {
+        double elapsed = 0;  ///< rad
+        double moved = 0;    ///< r cos(beta)
+        double gained = 0;   ///< of the slip velocity
+        double mean() const { return moved / elapsed; }
+    };
 
   private:
     enum class Search { found, runs_away };
@@ -54,11 +62,10 @@ class ConveyorSolver {
     Efficiency running_away() const;
     bool repeats() const;
     Efficiency average(std::size_t first);
-    std::optional<Efficiency> average_of_batches();
-    bool gets_ever_faster(Tangent const& s) const;
-    double follow_cycles(Tangent& s, std::size_t& hop, double cycles);
+    bool gets_ever_faster(Tangent const& s, std::vector<Batch> const& batches) const;
+    Batch follow_cycles(Tangent& s, std::size_t& hop, int cycles);
 
-    ConveyorWaves waves_;
+    Forces forces_;
     NormalOrbit orbit_;
     bool orbit_known_ = false;
     MotionStart from_;
@@ -71,11 +78,7 @@ class ConveyorSolver {
     bool keep_ = false;  // whether those of a motion without a period are wanted
     double displacement_ = 0, derivative_ = 0;
     double v_ = 0, error_ = 0, slope_ = 0;  // of the last period: velocity at its start, Newton's step, f'
-    std::vector<double> batches_;           // means of a motion without a period
-    std::vector<double> gains_;             // of the velocity in each batch, per rad
-    double longest_flight_ = 0;             // rad
-    double unit_ = 1;                       // of the lengths of the batches
-    double cycles_followed_ = 0;            // in all batches
+    double cycles_followed_ = 0;  // in all batches
 };
 
 }  // namespace vibrotrough::theory::detail

@@ -1,4 +1,4 @@
-#include "theory/detail/conveyor/phase_notes.hpp"
+#include "theory/detail/phase_notes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +74,7 @@ ModeCode PhaseNotes::mode(NormalOrbit const& orbit) const {
     return code;
 }
 
-void PhaseNotes::describe(ConveyorWaves const& waves, NormalOrbit const& orbit,
+void PhaseNotes::describe(Forces const& forces, NormalOrbit const& orbit,
                           ConveyorMotion& motion) const {
     bool const periodic = motion.motion.converged;
     std::size_t const first = periodic ? first_phase(orbit) : 0;
@@ -88,10 +88,10 @@ void PhaseNotes::describe(ConveyorWaves const& waves, NormalOrbit const& orbit,
         bool const flies = note.kind == PhaseKind::flight;
         double const rate = flies && hop > 0 ? orbit.hops[hop - 1].rebound : 0;
         motion.pieces.push_back({note.kind, note.start + shift, note.end + shift,
-                                 waves.vx()(Instant::at(note.start)) + note.v, 0, rate, note.displacement});
+                                 forces.vx()(Instant::at(note.start)) + note.v, 0, rate, note.displacement});
         if (!flies) continue;
         Hop const& flight = orbit.hops[hop];
-        Leap const over = leap(waves, flight);
+        Leap const over = leap(forces, flight);
         double const v = note.v * over.decay + over.push;
         motion.impacts.push_back(
             {note.end + shift, flight.approach, flight.rebound, v, landed({v, 0}, over.impulse).v});

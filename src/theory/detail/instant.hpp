@@ -20,30 +20,34 @@ struct Instant {
     static Instant at(double t) { return {t, std::sin(t), std::cos(t)}; }
 };
 
-/// A Halley step of this size leaves an error of its cube, which is below rounding.
-inline constexpr double root_step = 3e-6;
-
-/// Sine and cosine a small step later, by Taylor expansion: exact to rounding for |d| <= root_step.
-inline Instant shifted(Instant const& a, double d) {
-    double const half = d * d / 2;
-    return {a.t + d, a.sine * (1 - half) + a.cosine * d, a.cosine * (1 - half) - a.sine * d};
-}
-
 /// The tangential velocity and its derivative with respect to the velocity at the start of the period.
 struct Tangent {
     double v;
     double slope;
 };
 
-/// The durations of the slides in an earlier, similar evaluation, in order: guesses for the present one.
-struct Hints {
-    std::array<double, 8> duration{unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown};
-    std::size_t next = 0;
-    double guess() const { return next < duration.size() ? duration[next] : unknown; }
-    void learn(double h) {
-        if (next < duration.size()) duration[next] = h;
-        ++next;
+/// The slides of an earlier, similar evaluation, in order: guesses for the present one.
+class Hints {
+  public:
+    void restart() { next_ = 0; }
+    /// The duration of the next slide if it starts with this speed; `unknown` when there is no guess.
+    double guess(double speed) const {
+        if (next_ >= slides_.size() || slides_[next_].duration < 0) return unknown;
+        Slide const& s = slides_[next_];
+        return s.duration + (speed - s.speed) * s.longer;
     }
+    /// @param longer  by how much a slide lasts longer for each unit of its speed
+    void learn(double duration, double speed, double longer) {
+        if (next_ < slides_.size()) slides_[next_] = {duration, speed, longer};
+        ++next_;
+    }
+
+  private:
+    struct Slide {
+        double duration = unknown, speed = 0, longer = 0;
+    };
+    std::array<Slide, 8> slides_{};
+    std::size_t next_ = 0;
 };
 
 inline constexpr int max_contact_phases = 1000000;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/detail/common/instant.hpp"
+#include "theory/detail/instant.hpp"
 #include "theory/errors.hpp"
 
 #include <cmath>
