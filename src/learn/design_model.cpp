@@ -18,8 +18,8 @@ namespace vibrotrough::learn {
 namespace {
 
 theory::PointMass point_of(theory::Drive const& d, double friction) {
-    return {std::clamp(d.throw_number(), 1e-6, theory::largest_throw_number), std::tan(d.vibration_angle), std::tan(d.inclination),
-            friction};
+    return {std::clamp(d.throw_number(), 1e-6, theory::largest_throw_number), std::tan(d.vibration_angle),
+            std::tan(d.inclination), friction};
 }
 
 /// The law for grains whose rolling friction is not known exactly.

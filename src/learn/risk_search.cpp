@@ -26,8 +26,8 @@ double normal_share_above(double z) {
 
 /// Impact speed and power of the plastic point mass; nothing when it runs away.
 std::optional<theory::ImpactAndPower> quantities_of(theory::Drive const& d, double friction) {
-    theory::PointMass const point{std::clamp(d.throw_number(), 1e-6, theory::largest_throw_number), std::tan(d.vibration_angle),
-                                  std::tan(d.inclination), friction};
+    theory::PointMass const point{std::clamp(d.throw_number(), 1e-6, theory::largest_throw_number),
+                                  std::tan(d.vibration_angle), std::tan(d.inclination), friction};
     theory::ConveyorMotion const motion = theory::solve(theory::Conveyor{.point = point});
     if (!motion.motion.converged) return {};
     return theory::impact_and_power(motion, {d.amplitude});
