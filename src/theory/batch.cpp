@@ -55,8 +55,7 @@ BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs, std::option
                 try {
                     answer.points[i] = solver(inputs[i]);
                     if (starts > 0)
-                        answer.motions[i] =
-                            survey(inputs[i].conveyor(), answer.points[i], starts);
+                        answer.motions[i] = survey(inputs[i].conveyor(), answer.points[i], starts);
                 } catch (PhaseError const&) {
                     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
                     answer.points[i] = {unknown, 0, 0, Outcome::unsettled, unknown};

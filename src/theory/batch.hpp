@@ -9,7 +9,7 @@ namespace vibrotrough::theory {
 
 /// The solutions of a batch.
 struct BatchResult {
-    std::vector<Efficiency> points;                        ///< in the order of the inputs
+    std::vector<Efficiency> points;                      ///< in the order of the inputs
     std::vector<std::vector<CoexistingMotion>> motions;  ///< of each point; empty when not asked for
     double cpu_seconds_per_solution;  ///< CPU time of all threads over the number of points, s
 };

@@ -38,8 +38,8 @@ struct Conveyor {
     /// parameter is not in the paper; validation/why_theory_fails describes what it can and cannot explain
     /// about layers.
     std::optional<double> landing_friction = {};
-    double air_drag = 0;  ///< kappa, 0 or in [1e-8, 1000]: the drag force is m omega kappa times the velocity of the mass; the
-                          ///< air is at rest
+    double air_drag = 0;  ///< kappa, 0 or in [1e-8, 1000]: the drag force is m omega kappa times the velocity
+                          ///< of the mass; the air is at rest
     double along_ratio = 1;  ///< elliptical drive: X = along_ratio sin(t + along_phase), Y = sin t
     double along_phase = 0;  ///< rad
     std::vector<Harmonic> along = {}, normal = {};  ///< harmonics of the acceleration of X and of Y

@@ -30,7 +30,7 @@ struct BoundaryPiece {
 
 /// Velocity efficiency and mode over a grid of two inputs.
 struct Map {
-    MapAxis x, y;                  ///< the two inputs
+    MapAxis x, y;                    ///< the two inputs
     std::vector<Efficiency> points;  ///< points[j * x.count + i]
     /// The motions of each point to which different starts lead; empty when not asked for.
     std::vector<std::vector<CoexistingMotion>> motions;

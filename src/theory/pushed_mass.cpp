@@ -14,7 +14,9 @@ std::optional<double> mean_slip(std::vector<PushedInterval> const& period, doubl
     detail::Forces forces;
     detail::ContactLaw const law(forces);
     detail::Hints hints;
-    auto const record = [&](PhaseKind, double, double, double, double distance, double) { moved += distance; };
+    auto const record = [&](PhaseKind, double, double, double, double distance, double) {
+        moved += distance;
+    };
     auto const map = [&](double v) {
         moved = 0;
         hints.restart();

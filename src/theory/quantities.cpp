@@ -1,8 +1,8 @@
 #include "theory/quantities.hpp"
 
-#include "theory/detail/ranges.hpp"
 #include "theory/detail/instant.hpp"
 #include "theory/detail/phases.hpp"
+#include "theory/detail/ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -158,7 +158,8 @@ LargestForces largest_forces(ConveyorMotion const& motion) {
 EnergyBalance losses_of(ConveyorMotion const& motion) {
     require_pieces(motion);
     Forces const& forces = *motion.forces;
-    auto const [along, normal] = weights(forces.conveyor());
+    Weights const weight = weights(forces.conveyor());
+    double const along = weight.along, normal = weight.normal;
     double const stretch = shortest_stretch(forces.conveyor()), drag = forces.drag();
     EnergyBalance sum{};
     for (Piece const& piece : motion.pieces) {
@@ -237,7 +238,8 @@ TraceSample sample(ConveyorMotion const& motion, double t) {
 EnergyBalance energy_balance(ConveyorMotion const& motion) {
     EnergyBalance sum = losses_of(motion);
     Forces const& forces = *motion.forces;
-    auto const [along, normal] = weights(forces.conveyor());
+    Weights const weight = weights(forces.conveyor());
+    double const along = weight.along, normal = weight.normal;
     for (Piece const& piece : motion.pieces) {
         PieceMotion const m(forces, piece);
         if (m.flies()) continue;
@@ -261,10 +263,11 @@ ImpactAndPower impact_and_power(ConveyorMotion const& motion, Machine const& mac
     EnergyBalance const lost = losses_of(motion);
     PointMass const& point = motion.forces->conveyor().point;
     double const omega = angular_frequency(point, machine), speed = omega * machine.amplitude;
-    auto const [along, normal] = weights(motion.forces->conveyor());
+    Weights const weight = weights(motion.forces->conveyor());
     double hardest = 0;  // squared, in (omega r)^2
     for (Impact const& i : motion.impacts)
-        hardest = std::max(hardest, normal * i.approach * i.approach + along * i.along_before * i.along_before);
+        hardest = std::max(hardest, weight.normal * i.approach * i.approach +
+                                        weight.along * i.along_before * i.along_before);
     double const work = lost.friction_loss + lost.impact_loss + lost.drag_loss + lost.lift;
     return {std::sqrt(hardest) * speed, work * speed * speed * omega / duration(motion)};
 }

@@ -61,7 +61,9 @@ PhaseKind kind_of(double velocity, bool contact, bool landed) {
 class PhaseList {
   public:
     void add(RollingPhase const& p) {
-        auto const travelled = [&](double t) { return p.v.integral(p.basis, Instant::at(p.start), p.basis.at(t)); };
+        auto const travelled = [&](double t) {
+            return p.v.integral(p.basis, Instant::at(p.start), p.basis.at(t));
+        };
         if (!p.contact) {
             append(PhaseKind::flight, p.start, p.end, travelled(p.end));
             landed_ = true;

@@ -24,7 +24,7 @@ TheoryPoints const sample = parse_theory_points(
     {"in.csv", "throw_number,tan_vibration_angle,friction,restitution\n2,0.50,0.23,\n1.5,0.25,0.3,0.2\n"});
 
 std::vector<theory::Efficiency> const answers{{0.5, 0, 1, theory::Outcome::periodic},
-                                            {-1.0 / 0.0, 0, 0, theory::Outcome::runs_away, 0.25}};
+                                              {-1.0 / 0.0, 0, 0, theory::Outcome::runs_away, 0.25}};
 
 TEST(TheoryTable, PointsAreRead) {
     EXPECT_EQ(sample.columns, (std::vector{Input::throw_number, Input::tan_vibration_angle, Input::friction,

@@ -131,10 +131,10 @@ TEST(ConveyorEfficiency, KnowsTheMeanWithoutAPeriod) {
 
 // Where rounding decides whether a period counts (one motion in fifteen here), both solvers compare two
 // periods with rounding errors of their own, and also say which motions have none. Tolerance: each solver
-// knows a periodic motion to 1e-9. Two of 150 are allowed to repeat to just below 1e-9 in one solver and to just
-// above it in the other; the efficiency of the one is then within the interval of the other. Means are not
-// compared here: where rounding decides what follows a contact, they are means over the rounding errors of
-// each solver.
+// knows a periodic motion to 1e-9. Two of 150 are allowed to repeat to just below 1e-9 in one solver and to
+// just above it in the other; the efficiency of the one is then within the interval of the other. Means are
+// not compared here: where rounding decides what follows a contact, they are means over the rounding errors
+// of each solver.
 TEST(ConveyorEfficiency, AgreesWithTheWalkWhichMotionsHaveAPeriod) {
     int without = 0, marginal = 0;
     EfficiencySolver solver;

@@ -106,8 +106,7 @@ TEST(OneAnswer, OfPointAndBatch) {
     BatchResult const batch = solve_batch(inputs, 0);
     for (int i = 0; i < 10000; ++i) {
         ConveyorMotion const alone = solve(inputs[static_cast<std::size_t>(i)].conveyor());
-        expect_same(batch.points[static_cast<std::size_t>(i)],
-                    efficiency_of(alone), i);
+        expect_same(batch.points[static_cast<std::size_t>(i)], efficiency_of(alone), i);
     }
 }
 

@@ -210,8 +210,8 @@ TEST(Quantities, TheWeightDoesNotVanishWithTheVibrationAngle) {
     for (double const tangent : {1e-3, 1e-160, 1e-300}) {
         Conveyor conveyor{};
         conveyor.point = {4 * tangent, tangent, 0, 0.3};  // K = 4
-        EngineerQuantities const q = engineer_quantities(solve(conveyor),
-                                                         {.amplitude = 0.006, .gravity = 9.81});
+        EngineerQuantities const q =
+            engineer_quantities(solve(conveyor), {.amplitude = 0.006, .gravity = 9.81});
         // At rest N = g + omega^2 r sin(beta), of which K = 4 is the factor to g. It was 6e-4 too low where
         // the largest force lay between two samples.
         EXPECT_NEAR(q.largest_normal_force, 9.81 * (1 + 4 * tangent), 1e-9);

@@ -22,7 +22,10 @@ class Ballistic {
   public:
     /// @param gap, rate  at the start; relative to the trough
     Ballistic(Forces const& forces, Instant const& start, double gap, double rate)
-        : forces_(forces), start_(start.t), speed_(forces.vy()(start) + rate), level_(forces.y()(start) + gap) {}
+        : forces_(forces),
+          start_(start.t),
+          speed_(forces.vy()(start) + rate),
+          level_(forces.y()(start) + gap) {}
 
     double gap(Instant const& at, Decayed const& d) const {
         return speed_ * d.once - forces_.weight() * d.twice - (forces_.y()(at) - level_);

@@ -71,9 +71,9 @@ class Forces {
     Wave const& vx() const { return vx_; }  ///< its rate
     Wave const& y() const { return y_; }    ///< height of the trough
     Wave const& vy() const { return vy_; }
-    Wave const& normal_force() const { return normal_; }      ///< N in contact
-    Wave const& needed_friction() const { return needed_; }   ///< of a mass that rests
-    Crossings const& presses() const { return presses_; }     ///< of the normal force in contact
+    Wave const& normal_force() const { return normal_; }     ///< N in contact
+    Wave const& needed_friction() const { return needed_; }  ///< of a mass that rests
+    Crossings const& presses() const { return presses_; }    ///< of the normal force in contact
     Sliding const& slide(double sign) const { return sign > 0 ? positive_ : negative_; }
 
   private:

@@ -38,7 +38,8 @@ std::size_t hops_to_return(std::vector<Hop> const& hops, std::size_t since, doub
          ++k) {
         Hop const& earlier = hops[hops.size() - 1 - k];
         elapsed += duration(earlier);
-        if (!(std::abs(now.rebound - earlier.rebound) < match) || !(difference(now, earlier) < match)) continue;
+        if (!(std::abs(now.rebound - earlier.rebound) < match) || !(difference(now, earlier) < match))
+            continue;
         for (std::size_t shorter = 1; shorter < k; ++shorter) {
             // An alternating approach meets the tolerance for 2 before it does for 1.
             if (k % shorter == 0 && difference(now, hops[hops.size() - 1 - shorter]) < 1e3 * match)
@@ -162,8 +163,7 @@ void find_normal_orbit(Forces const& forces, MotionStart const& start, NormalOrb
         elapsed += duration(hop);
         growth.multiply(chain.sensitivity(hop, from.rate));
         if (peak < hopeless_growth) peak = std::max(peak, growth.factor());
-        if (chaos_start == HUGE_VAL && has_followed(chaos_from))
-            chaos_start = growth.logarithm();
+        if (chaos_start == HUGE_VAL && has_followed(chaos_from)) chaos_start = growth.logarithm();
         // Where rounding has decided what follows a contact, the motion may still end elsewhere.
         bool const chaotic = growth.logarithm() - chaos_start > std::log(chaotic_growth);
         if (has_followed(chaos_to) && chaotic && !irregular) break;

@@ -74,8 +74,7 @@ ModeCode PhaseNotes::mode(NormalOrbit const& orbit) const {
     return code;
 }
 
-void PhaseNotes::describe(Forces const& forces, NormalOrbit const& orbit,
-                          ConveyorMotion& motion) const {
+void PhaseNotes::describe(Forces const& forces, NormalOrbit const& orbit, ConveyorMotion& motion) const {
     bool const periodic = motion.motion.converged;
     std::size_t const first = periodic ? first_phase(orbit) : 0;
     std::size_t hop = notes_.front().hop, impacts_before = 0;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "theory/detail/fixed_point.hpp"
-#include "theory/detail/root.hpp"
 #include "theory/detail/normal_orbit.hpp"
+#include "theory/detail/root.hpp"
 
 #include <vector>
 
@@ -37,7 +37,10 @@ class SlideMotion {
   public:
     /// @param w0  speed at the start
     SlideMotion(Sliding const& forces, double kappa, double w0, Instant const& from)
-        : forces_(forces), drag_(kappa), start_(from.t), free_(w0 - forces.response(from)),
+        : forces_(forces),
+          drag_(kappa),
+          start_(from.t),
+          free_(w0 - forces.response(from)),
           first_path_(forces.path(from)) {}
 
     Decayed decayed(double t) const { return Decayed::after(drag_, t - start_); }

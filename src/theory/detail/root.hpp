@@ -35,7 +35,8 @@ double falling_zero(Function const& f, double low, double high, double guess) {
     };
     double t = guess > low && guess < high ? guess : low + (high - low) / 2;
     noting(t);
-    // Where the guess is good, the first step is the last one, and Boost's care would cost more than the step.
+    // Where the guess is good, the first step is the last one, and Boost's care would cost more than the
+    // step.
     double const next = t - 2 * value * rate / (2 * rate * rate - value * bend);
     if (next >= low && next <= high) {
         if (is_close()) return next;

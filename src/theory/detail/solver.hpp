@@ -78,7 +78,7 @@ class ConveyorSolver {
     bool keep_ = false;  // whether those of a motion without a period are wanted
     double displacement_ = 0, derivative_ = 0;
     double v_ = 0, error_ = 0, slope_ = 0;  // of the last period: velocity at its start, Newton's step, f'
-    double cycles_followed_ = 0;  // in all batches
+    double cycles_followed_ = 0;            // in all batches
 };
 
 }  // namespace vibrotrough::theory::detail

@@ -34,7 +34,8 @@ ConveyorSolver::Batch ConveyorSolver::follow_cycles(Tangent& s, std::size_t& hop
         if (keep_) notes_.add(kind, hop, from, to, speed, distance);
     };
     double const before = s.v;
-    for (std::size_t const first = hop; batch.elapsed < two_pi * cycles || 2 * (hop - first) < static_cast<std::size_t>(cycles); ++hop) {
+    for (std::size_t const first = hop;
+         batch.elapsed < two_pi * cycles || 2 * (hop - first) < static_cast<std::size_t>(cycles); ++hop) {
         if (hop == orbit_.hops.size()) {
             FlightChain::Start const start = with_rounding(orbit_.next, orbit_.hops.size());
             orbit_.hops.push_back(chain.fly(start, orbit_.next));

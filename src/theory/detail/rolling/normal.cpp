@@ -41,7 +41,8 @@ class SoftLanding {
     /// The piece that begins in a state and ends at `end` at the latest, and the state after it.
     NormalPiece follow(State& s, double end) const {
         Instant const start = Instant::at(s.t);
-        NormalPiece p{.start = s.t, .end = end, .contact = s.contact, .basis = {s.t, {0, rates_[0], rates_[1]}}};
+        NormalPiece p{
+            .start = s.t, .end = end, .contact = s.contact, .basis = {s.t, {0, rates_[0], rates_[1]}}};
         p.gap = s.contact ? pressed(start, s) : ballistic(weight_, start, s.gap, s.rate);
         if (s.contact) p.force = force(p.gap, p.basis);
         p.end = s.contact ? release(p, end) : landing(p, end);

@@ -59,12 +59,10 @@ struct PhaseSum {
         return x;
     }
     PhaseSum derivative(PhaseBasis const& basis) const {
-        return {slope,
-                2 * square,
-                0,
-                -cosine,
-                sine,
-                {-basis.rates[0] * decays[0], -basis.rates[1] * decays[1], -basis.rates[2] * decays[2]}};
+        return {
+            slope, 2 * square,
+            0,     -cosine,
+            sine,  {-basis.rates[0] * decays[0], -basis.rates[1] * decays[1], -basis.rates[2] * decays[2]}};
     }
     /// The same sum without slope and square, counted from a later time.
     PhaseSum from(PhaseTime const& start) const {
@@ -115,7 +113,8 @@ class Margin {
     /// One that has no zero.
     Margin() : sum_{.constant = 1} {}
     explicit Margin(PhaseSum const& sum)
-        : sum_(sum), wave_(std::sqrt(sum.sine * sum.sine + sum.cosine * sum.cosine) + 2 * std::abs(sum.square)) {}
+        : sum_(sum),
+          wave_(std::sqrt(sum.sine * sum.sine + sum.cosine * sum.cosine) + 2 * std::abs(sum.square)) {}
 
     /// The margin at one time, and what bounds it afterwards. A decay with a positive amplitude is convex and
     /// stays above its tangent. One with a negative amplitude rises.
@@ -129,8 +128,8 @@ class Margin {
     State at(PhaseTime const& time, PhaseBasis const& basis) const {
         State s{.value = sum_(time),
                 .rate = 0,
-                .falling_rate = sum_.slope + 2 * sum_.square * time.h + sum_.sine * time.cosine -
-                                sum_.cosine * time.sine,
+                .falling_rate =
+                    sum_.slope + 2 * sum_.square * time.h + sum_.sine * time.cosine - sum_.cosine * time.sine,
                 .rising_bend = 0,
                 .curvature = 2 * sum_.square - sum_.sine * time.sine - sum_.cosine * time.cosine,
                 .bend = wave_};
@@ -146,9 +145,7 @@ class Margin {
         return s;
     }
     /// How far the sum stays positive for certain, by the bounds of the second derivatives.
-    double step(State const& s) const {
-        return safe_step(s.value, s.rate, wave_ + s.rising_bend);
-    }
+    double step(State const& s) const { return safe_step(s.value, s.rate, wave_ + s.rising_bend); }
     /// The largest step that several bounds allow. Beside those of step(): rising decays are bounded by their
     /// value, which is better where they are fast; and the wave by its second derivative at the start and a
     /// bound of its third one.

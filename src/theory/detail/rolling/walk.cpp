@@ -6,7 +6,7 @@
 namespace vibrotrough::theory::detail {
 namespace {
 
-constexpr int most_phases = 2000;                            // within one piece of the normal motion
+constexpr int most_phases = 2000;  // within one piece of the normal motion
 enum End { of_piece, slip_stops, spin_stops, friction_forwards, friction_backwards };
 
 int sign(double x) {
@@ -59,7 +59,9 @@ void RollingWalk::solve(RollingPhase& p, Instant const& start) const {
         if (rolls) torque.add(1 / inertia, drive);
         p.w = driven(rate, torque, p.spin, p.basis, start);
     }
-    p.v = rolls ? p.w : driven(0, PhaseSum(drive).add(-p.slip * friction_ * tangent_, p.n), p.velocity, p.basis, start);
+    p.v = rolls ? p.w
+                : driven(0, PhaseSum(drive).add(-p.slip * friction_ * tangent_, p.n), p.velocity, p.basis,
+                         start);
 }
 
 /// The friction that keeps a layer from slipping.
