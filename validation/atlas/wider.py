@@ -37,6 +37,11 @@ def stored() -> list[list[object]]:
     return [list(row.values()) for row in read_table(path)] if path.exists() else []
 
 
+def changes_of(name: str) -> dict[str, Any]:
+    """What a campaign changes in base.toml."""
+    return CHANGES | (atlas.PRECISE if name.startswith("random") and "deep" not in name else {})
+
+
 def missing(run: ValidationCase, columns: design.Columns, changes: dict[str, Any], known: set[object]) -> design.Columns:
     """The layers whose ids are not known."""
     ids = atlas.ids_of(run, atlas.campaign_of(run, columns, changes))
@@ -45,7 +50,7 @@ def missing(run: ValidationCase, columns: design.Columns, changes: dict[str, Any
 
 def simulate(run: ValidationCase, name: str, columns: design.Columns) -> list[list[object]]:
     """Rows of COLUMNS of the layers that are done."""
-    changes = CHANGES | (atlas.PRECISE if name.startswith("random") and "deep" not in name else {})
+    changes = changes_of(name)
     known = {row[1] for row in stored()}
     todo = missing(run, columns, changes, known)
     part = {key: values[:AT_ONCE] for key, values in todo.items()}
@@ -70,14 +75,32 @@ def landing_of(folder: pathlib.Path, row: dict[str, str]) -> list[str]:
         return [f"{float(case['effective_restitution']):.4f}", f"{float(case['landing_phase']):.4f}", f"{depth:.4f}", f"{float(case['core_time']):.0f}"]
 
 
-def main() -> None:
-    run = ValidationCase(FOLDER)
+def predict(run: ValidationCase) -> None:
+    """What the atlas says of the layers of the table, beyond its ranges."""
+    answers: dict[str, dict[str, Any]] = {}
+    for name, columns in design.wider_campaigns().items():
+        text = atlas.campaign_of(run, columns, changes_of(name))
+        answers |= dict(zip(atlas.ids_of(run, text), run.of_file("predict", text), strict=True))
+    rows = read_table(FOLDER / TABLE)
+    keys = ["campaign", "case", "outcome", "throw_number", "tan_inclination", "amplitude", "depth", "theory", "rolling_layer", "efficiency", "half_width"]
+    values = [[*(row[key] for key in keys), *(f"{answers[row['case']][key]:.4f}" for key in ("efficiency", "half_width"))] for row in rows]
+    run.write_table("wider_predicted.csv", [*keys, "atlas", "atlas_half_width"], values)
+
+
+def simulate_all(run: ValidationCase) -> None:
+    """The layers that are not in the table; with --quick only four."""
     campaigns = design.wider_campaigns()
     for name in ORDER:
         while rows := simulate(run, name, campaigns[name]):
             run.write_table(TABLE, COLUMNS, [*stored(), *rows])
             if run.quick:
                 return
+
+
+def main() -> None:
+    run = ValidationCase(FOLDER)
+    simulate_all(run)
+    predict(run)
 
 
 if __name__ == "__main__":
