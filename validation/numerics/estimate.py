@@ -13,8 +13,6 @@ from validation_case import Floats
 
 Row = Mapping[str, str]
 ERRORS = ("softness", "box", "step")
-FEWEST_LAYERS = 3
-HALF = 12  # cycles of each of the two windows that count
 
 
 def size_of(error: str, setting: float) -> float:
@@ -94,52 +92,60 @@ def effects_of(layer: Layer, rows: Sequence[Row], large: float) -> Effects:
 
 @dataclass(frozen=True)
 class Model:
-    """An error is (mean + deviation * a number of the layer) * size: both with their 95 % intervals."""
+    """An error is (mean + deviation * a number of the layer) * size. The mean is that of the range of throw numbers; with 95 % intervals."""
 
-    layers: int
-    mean: float
-    mean_half_width: float
+    ranges: tuple[tuple[float, float], ...]
+    layers: tuple[int, ...]  # of each range
+    means: Floats
+    mean_half_widths: Floats
     deviation: float
     deviation_least: float
     deviation_most: float
+    quantile: float  # Student's, of layers less means
 
-    @property
-    def is_significant(self) -> bool:
-        return abs(self.mean) > self.mean_half_width
-
-    def at(self, size: float) -> tuple[float, float]:
+    def at(self, size: float, throw_number: float) -> tuple[float, float]:
         """The correction, which is zero where the mean is not significant, and the half-width (95 %) of what is left of a new layer's error."""
-        quantile = float(scipy.stats.t.ppf(0.975, self.layers - 1))
-        error = self.mean_half_width / quantile
-        left = 0.0 if self.is_significant else self.mean
-        return (self.mean * size if self.is_significant else 0.0), quantile * abs(size) * math.sqrt(self.deviation**2 + error**2 + left**2)
+        place = next(k for k, (low, high) in enumerate(self.ranges) if low <= throw_number < high)
+        mean, half_width = float(self.means[place]), float(self.mean_half_widths[place])
+        corrected = abs(mean) > half_width
+        left = 0.0 if corrected else mean
+        return (mean * size if corrected else 0.0), self.quantile * abs(size) * math.sqrt(self.deviation**2 + (half_width / self.quantile) ** 2 + left**2)
 
 
-def model_of(slopes: Floats, errors: Floats) -> Model:
-    """A random-effects model: the layers' own slopes are normal, and each is known with its standard error. The deviation is that of
-    restricted maximum likelihood, its interval from Cochran's Q (Viechtbauer, Statistics in Medicine 26 (2007) 37-52), the interval
-    of the mean from Student's t with the scatter that is seen (Knapp & Hartung, Statistics in Medicine 22 (2003) 2693-2710)."""
-    count = len(slopes)
+RANGES: dict[str, tuple[tuple[float, float], ...]] = {  # of throw numbers, over which the mean differs; those of softness from the layers of deep_layers
+    "softness": ((0, 1.75), (1.75, 2.65), (2.65, math.inf)), "box": ((0, math.inf),), "step": ((0, math.inf),),
+}  # fmt: skip
 
-    def mean_with(variance: float) -> tuple[float, Floats]:
+
+def model_of(error: str, throw_numbers: Floats, slopes: Floats, errors: Floats) -> Model:
+    """A random-effects model: the layers' own slopes are normal around the mean of their range, and each is known with its standard error.
+    The variance is its mean over the restricted likelihood, all deviations being as likely beforehand, so that few layers do not pretend that
+    there is none; its interval is from Cochran's Q (Viechtbauer, Statistics in Medicine 26 (2007) 37-52), the intervals of the means from Student's t with the scatter that is seen (Knapp & Hartung, Statistics in Medicine 22 (2003) 2693-2710)."""
+    inside = np.array([[low <= throw < high for low, high in RANGES[error]] for throw in throw_numbers], dtype=float)
+    free = len(slopes) - inside.shape[1]
+
+    def means_with(variance: float) -> tuple[Floats, Floats]:
         weights = 1 / (errors**2 + variance)
-        return float(np.sum(weights * slopes) / np.sum(weights)), weights
-
-    def badness(variance: float) -> float:
-        mean, weights = mean_with(variance)
-        return float(np.sum(weights * (slopes - mean) ** 2) - np.sum(np.log(weights)) + math.log(np.sum(weights)))
+        return (weights * slopes) @ inside / (weights @ inside), weights
 
     def scatter(variance: float) -> float:
-        mean, weights = mean_with(variance)
-        return float(np.sum(weights * (slopes - mean) ** 2))
+        means, weights = means_with(variance)
+        return float(np.sum(weights * (slopes - inside @ means) ** 2))
+
+    def badness(variance: float) -> float:
+        weights = 1 / (errors**2 + variance)
+        return scatter(variance) - float(np.sum(np.log(weights))) + float(np.sum(np.log(weights @ inside)))
 
     most = 100 * float(np.var(slopes) + np.max(errors) ** 2)
-    variance = float(scipy.optimize.minimize_scalar(lambda root: badness(root**2), bounds=(0, math.sqrt(most)), method="bounded").x) ** 2
-    variance = 0.0 if badness(0) <= badness(variance) else variance
-    mean, weights = mean_with(variance)
-    width = float(scipy.stats.t.ppf(0.975, count - 1)) * math.sqrt(max(1.0, scatter(variance) / (count - 1)) / float(np.sum(weights)))
-    least, largest = (root_of(lambda v, q=q: scatter(v) - float(scipy.stats.chi2.ppf(q, count - 1)), most) for q in (0.975, 0.025))
-    return Model(count, mean, width, math.sqrt(variance), least, largest)
+    roots = np.linspace(0, math.sqrt(most) / 3, 3000)
+    badnesses = np.array([badness(root**2) for root in roots])
+    likelihood = np.exp(-(badnesses - badnesses.min()) / 2)
+    variance = float(np.sum(likelihood * roots**2) / np.sum(likelihood))
+    means, weights = means_with(variance)
+    quantile = float(scipy.stats.t.ppf(0.975, free))
+    widths = quantile * np.sqrt(max(1.0, scatter(variance) / free) / (weights @ inside))
+    least, largest = (root_of(lambda v, q=q: scatter(v) - float(scipy.stats.chi2.ppf(q, free)), most) for q in (0.975, 0.025))
+    return Model(RANGES[error], tuple(int(n) for n in inside.sum(axis=0)), means, widths, math.sqrt(variance), least, largest, quantile)
 
 
 def root_of(falling: Callable[[float], float], most: float) -> float:
