@@ -1,7 +1,7 @@
 """The three numerical errors of a layer from its packings, and over layers their mean and what differs from layer to layer."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,9 +16,9 @@ ERRORS = ("softness", "box", "step")
 
 
 def size_of(error: str, setting: float) -> float:
-    """The number without a dimension that an error is in proportion to: s^2, with the wave number s; the root of d^2 over the area of
-    the box; the time step over the Rayleigh time of the smallest grain."""
-    return {"softness": setting**2, "box": setting**-0.5, "step": setting}[error]
+    """The number without a dimension that an error is in proportion to: s^2, with the wave number s; d^2 over the area of the box; the
+    time step over the Rayleigh time of the smallest grain."""
+    return {"softness": setting**2, "box": 1 / setting, "step": setting}[error]
 
 
 def area(box: tuple[float, float]) -> float:
@@ -32,15 +32,16 @@ def efficiency(row: Row) -> float:
 
 
 @dataclass(frozen=True)
-class Effects:
-    """What the coarse settings of one layer change: in the order of ERRORS."""
+class Evidence:
+    """Changes of the efficiency of one layer by coarser settings."""
 
-    layer: Layer
-    change: Floats  # of the efficiency
-    error: Floats  # standard errors of these
-    size: Floats  # of the coarse setting less that of the accurate one
-    deviation: float  # of one packing in the small box
-    free: int
+    study: str
+    layer: str
+    throw_number: float
+    depth: float  # diameters
+    change: Floats
+    covariance: Floats  # of the statistics of the changes
+    size: Floats  # a row for each change: the numbers of ERRORS, of the coarser settings less those of the better ones
 
 
 def sizes_of(layer: Layer, one: Simulation, fraction: float) -> list[float]:
@@ -79,80 +80,18 @@ def variance_ratio(by_layer: Mapping[int, Sequence[Row]]) -> float:
     return found["large"] / found["small"]
 
 
-def effects_of(layer: Layer, rows: Sequence[Row], large: float) -> Effects:
+def effects_of(layer: Layer, rows: Sequence[Row], large: float) -> tuple[Evidence, float]:
+    """What the coarse setting of each error changes, and the standard deviation of a packing in the small box."""
     found, inverse, rest = fitted(rows, large)
     weights = np.array([1 / large if row["box"] == "large" else 1 for row in rows])
-    free = len(rows) - len(found)
-    variance = float(np.sum(weights * rest**2)) / free
+    variance = float(np.sum(weights * rest**2)) / (len(rows) - len(found))
     by_levels = {one.levels: one for one in EIGHT}
     every = np.array([sizes_of(layer, by_levels[row["grains"], row["box"], row["step"]], float(row["step_over_rayleigh"])) for row in rows])
-    size = [np.mean(every[[row[key] == level for row in rows], k]) - np.mean(every[[row[key] != level for row in rows], k]) for k, (key, level) in enumerate(COARSE)]
-    return Effects(layer, found[2:], np.sqrt(variance * np.diag(inverse)[2:]), np.array(size), math.sqrt(variance), free)
-
-
-@dataclass(frozen=True)
-class Model:
-    """An error is (mean + deviation * a number of the layer) * size. The mean is that of the range of throw numbers; with 95 % intervals."""
-
-    ranges: tuple[tuple[float, float], ...]
-    layers: tuple[int, ...]  # of each range
-    means: Floats
-    mean_half_widths: Floats
-    deviation: float
-    deviation_least: float
-    deviation_most: float
-    quantile: float  # Student's, of layers less means
-
-    def at(self, size: float, throw_number: float) -> tuple[float, float]:
-        """The correction, which is zero where the mean is not significant, and the half-width (95 %) of what is left of a new layer's error."""
-        place = next(k for k, (low, high) in enumerate(self.ranges) if low <= throw_number < high)
-        mean, half_width = float(self.means[place]), float(self.mean_half_widths[place])
-        corrected = abs(mean) > half_width
-        left = 0.0 if corrected else mean
-        return (mean * size if corrected else 0.0), self.quantile * abs(size) * math.sqrt(self.deviation**2 + (half_width / self.quantile) ** 2 + left**2)
-
-
-RANGES: dict[str, tuple[tuple[float, float], ...]] = {  # of throw numbers, over which the mean differs; those of softness from the layers of deep_layers
-    "softness": ((0, 1.75), (1.75, 2.65), (2.65, math.inf)), "box": ((0, math.inf),), "step": ((0, math.inf),),
-}  # fmt: skip
-
-
-def model_of(error: str, throw_numbers: Floats, slopes: Floats, errors: Floats) -> Model:
-    """A random-effects model: the layers' own slopes are normal around the mean of their range, and each is known with its standard error.
-    The variance is its mean over the restricted likelihood, all deviations being as likely beforehand, so that few layers do not pretend that
-    there is none; its interval is from Cochran's Q (Viechtbauer, Statistics in Medicine 26 (2007) 37-52), the intervals of the means from Student's t with the scatter that is seen (Knapp & Hartung, Statistics in Medicine 22 (2003) 2693-2710)."""
-    inside = np.array([[low <= throw < high for low, high in RANGES[error]] for throw in throw_numbers], dtype=float)
-    free = len(slopes) - inside.shape[1]
-
-    def means_with(variance: float) -> tuple[Floats, Floats]:
-        weights = 1 / (errors**2 + variance)
-        return (weights * slopes) @ inside / (weights @ inside), weights
-
-    def scatter(variance: float) -> float:
-        means, weights = means_with(variance)
-        return float(np.sum(weights * (slopes - inside @ means) ** 2))
-
-    def badness(variance: float) -> float:
-        weights = 1 / (errors**2 + variance)
-        return scatter(variance) - float(np.sum(np.log(weights))) + float(np.sum(np.log(weights @ inside)))
-
-    most = 100 * float(np.var(slopes) + np.max(errors) ** 2)
-    roots = np.linspace(0, math.sqrt(most) / 3, 3000)
-    badnesses = np.array([badness(root**2) for root in roots])
-    likelihood = np.exp(-(badnesses - badnesses.min()) / 2)
-    variance = float(np.sum(likelihood * roots**2) / np.sum(likelihood))
-    means, weights = means_with(variance)
-    quantile = float(scipy.stats.t.ppf(0.975, free))
-    widths = quantile * np.sqrt(max(1.0, scatter(variance) / free) / (weights @ inside))
-    least, largest = (root_of(lambda v, q=q: scatter(v) - float(scipy.stats.chi2.ppf(q, free)), most) for q in (0.975, 0.025))
-    return Model(RANGES[error], tuple(int(n) for n in inside.sum(axis=0)), means, widths, math.sqrt(variance), least, largest, quantile)
-
-
-def root_of(falling: Callable[[float], float], most: float) -> float:
-    """The root of where a falling function of a variance is zero; zero where it begins below."""
-    if falling(0) <= 0:
-        return 0.0
-    return math.sqrt(float(scipy.optimize.brentq(falling, 0, most))) if falling(most) < 0 else math.inf
+    is_coarse = [np.array([row[key] == level for row in rows]) for key, level in COARSE]
+    size = [np.mean(every[coarse, k]) - np.mean(every[~coarse, k]) for k, coarse in enumerate(is_coarse)]
+    inputs = layer.inputs
+    evidence = Evidence("numerics", str(layer.number), inputs["throw_number"], inputs["depth"], found[2:], variance * inverse[2:, 2:], np.diag(size))
+    return evidence, math.sqrt(variance)
 
 
 def correlations(by_layer: Mapping[int, Sequence[Row]], windows: Sequence[str]) -> dict[tuple[str, str], tuple[float, int]]:
@@ -169,3 +108,77 @@ def correlations(by_layer: Mapping[int, Sequence[Row]], windows: Sequence[str]) 
             one, two = np.array(pairs).T
             found[setting, window] = float(np.sum(one * two) / math.sqrt(np.sum(one**2) * np.sum(two**2))), len(pairs)
     return found
+
+
+# Ranges of throw numbers over which the mean differs; those of softness from the layers of deep_layers.
+RANGES: dict[str, tuple[tuple[float, float], ...]] = {
+    "softness": ((0, 1.75), (1.75, 2.65), (2.65, math.inf)), "box": ((0, math.inf),), "step": ((0, math.inf),),
+}  # fmt: skip
+MEANS = [(error, *limits) for error in ERRORS for limits in RANGES[error]]
+LARGEST = {"softness": 6.0, "box": 6.0, "step": 0.3}  # deviations that are thought possible
+
+
+@dataclass(frozen=True)
+class Model:
+    """An error is (mean + deviation * a number of the layer) * size: means in the order of MEANS, deviations in that of ERRORS, all with 95 %."""
+
+    layers: Floats  # that tell of each mean
+    means: Floats
+    mean_errors: Floats  # standard errors
+    deviations: Floats
+    least: Floats
+    most: Floats
+
+    def quantile(self, place: int) -> float:
+        """Student's."""
+        return float(scipy.stats.t.ppf(0.975, max(1, self.layers[place] - 1)))
+
+    def at(self, error: str, size: float, throw_number: float) -> tuple[float, float]:
+        """The correction, which is zero where the mean is not significant, and the half-width (95 %) of what is left of a new layer's error."""
+        place = next(k for k, (name, low, high) in enumerate(MEANS) if name == error and low <= throw_number < high)
+        mean, uncertainty, quantile = float(self.means[place]), float(self.mean_errors[place]), self.quantile(place)
+        is_corrected = abs(mean) > quantile * uncertainty
+        left = 0.0 if is_corrected else mean
+        return (mean * size if is_corrected else 0.0), quantile * abs(size) * math.sqrt(self.deviations[ERRORS.index(error)] ** 2 + uncertainty**2 + left**2)
+
+
+def fixed(one: Evidence) -> Floats:
+    """The part of each of MEANS in the changes."""
+    columns = [one.size[:, ERRORS.index(error)] * (low <= one.throw_number < high) for error, low, high in MEANS]
+    return np.array(columns).T
+
+
+def fit(evidence: Sequence[Evidence], deviations: Floats) -> tuple[float, Floats, Floats]:
+    """Twice the negative logarithm of the restricted likelihood of these deviations, and the means with their covariance."""
+    count = len(MEANS)
+    information, score, squares, volume = np.zeros((count, count)), np.zeros(count), 0.0, 0.0
+    for one in evidence:
+        spread = (one.size * deviations) @ (one.size * deviations).T + one.covariance
+        weighted = np.linalg.solve(spread, np.column_stack([fixed(one), one.change]))
+        information += fixed(one).T @ weighted[:, :-1]
+        score += fixed(one).T @ weighted[:, -1]
+        squares += float(one.change @ weighted[:, -1])
+        volume += float(np.linalg.slogdet(spread)[1])
+    covariance = np.linalg.inv(information)
+    means = covariance @ score
+    return squares - float(score @ means) + volume + float(np.linalg.slogdet(information)[1]), means, covariance
+
+
+def model_of(evidence: Sequence[Evidence]) -> Model:
+    """A mixed model: the slopes of the layers are normal around the mean of their range of throw numbers. The variance of each is its
+    mean over the restricted likelihood (the others at their most likely values), all deviations being as likely beforehand, so that few
+    layers do not pretend that there is none."""
+    best = scipy.optimize.minimize(lambda x: fit(evidence, np.abs(x))[0], [LARGEST[error] / 10 for error in ERRORS], method="Nelder-Mead").x
+    best = np.abs(best)
+    found = []
+    for k, error in enumerate(ERRORS):
+        roots = np.linspace(0, LARGEST[error], 400)
+        badness = np.array([fit(evidence, np.where(np.arange(len(ERRORS)) == k, root, best))[0] for root in roots])
+        likelihood = np.exp(-(badness - badness.min()) / 2)
+        likelihood /= np.sum(likelihood)
+        limits = np.interp([0.025, 0.975], np.cumsum(likelihood), roots)
+        found.append([math.sqrt(float(np.sum(likelihood * roots**2))), *limits])
+    deviations, least, most = np.array(found).T
+    _, means, covariance = fit(evidence, deviations)
+    layers = np.sum([np.any(fixed(one) != 0, axis=0) for one in evidence], axis=0)
+    return Model(layers, means, np.sqrt(np.diag(covariance)), deviations, least, most)
