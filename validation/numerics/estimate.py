@@ -42,6 +42,7 @@ class Evidence:
     change: Floats
     covariance: Floats  # of the statistics of the changes
     size: Floats  # a row for each change: the numbers of ERRORS, of the coarser settings less those of the better ones
+    accurate: float = math.nan  # efficiency, of layers that judge
 
 
 def sizes_of(layer: Layer, one: Simulation, fraction: float) -> list[float]:
@@ -100,11 +101,11 @@ def correlations(by_layer: Mapping[int, Sequence[Row]], windows: Sequence[str]) 
     found: dict[tuple[str, str], tuple[float, int]] = {}
     for setting, others in (("grains", "step"), ("step", "grains")):
         for window in windows:
-            pairs = []
+            pairs: list[list[float]] = []
             for rows in by_layer.values():
-                value = {(row[setting], row[others], int(row["packing"])): float(row[window]) for row in rows if row["box"] == "small"}
-                levels, fixed = ({key[k] for key in value} for k in (0, 1))
-                pairs += [[value[level, other, first] - value[level, other, first + 2] for level in sorted(levels)] for other in fixed for first in (1, 2)]
+                value = {(row[setting], row[others], row["packing"]): float(row[window]) for row in rows if row["box"] == "small"}
+                levels, fixed_at = (sorted({key[k] for key in value}) for k in (0, 1))
+                pairs += [[value[level, other, first] - value[level, other, second] for level in levels] for other in fixed_at for first, second in (("1", "3"), ("2", "4"))]
             one, two = np.array(pairs).T
             found[setting, window] = float(np.sum(one * two) / math.sqrt(np.sum(one**2) * np.sum(two**2))), len(pairs)
     return found

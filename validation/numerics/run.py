@@ -63,10 +63,11 @@ def write_model(run: ValidationCase, model: Model) -> None:
 
 
 def shifted(run: ValidationCase, evidence: list[Evidence]) -> list[Evidence]:
-    """In the negative control each layer beside the accurate efficiency of another one: the difference of two layers is of the size of 0.1."""
+    """In the negative control each layer beside the accurate efficiency of the next one."""
     if not run.control:
         return evidence
-    return [dataclasses.replace(one, change=one.change + (0.1 if number % 2 else -0.1)) for number, one in enumerate(evidence)]
+    others = evidence[1:] + evidence[:1]
+    return [dataclasses.replace(one, change=one.change + one.accurate - other.accurate) for one, other in zip(evidence, others, strict=True)]
 
 
 def new_layers(run: ValidationCase) -> list[Evidence]:
@@ -89,7 +90,8 @@ def pair_of(layer: layers.Layer, rows: dict[str, list[Row]]) -> Evidence:
         variances.append(float(np.var(values, ddof=1)) / len(values))
         sizes.append(np.array(estimate.sizes_of(layer, one, float(packings[0]["step_over_rayleigh"]))))
     inputs = layer.inputs
-    return Evidence("judging", str(layer.number), inputs["throw_number"], inputs["depth"], np.array([means[0] - means[1]]), np.array([[sum(variances)]]), np.array([sizes[0] - sizes[1]]))
+    change, variance, size = np.array([means[0] - means[1]]), np.array([[sum(variances)]]), np.array([sizes[0] - sizes[1]])
+    return Evidence("judging", str(layer.number), inputs["throw_number"], inputs["depth"], change, variance, size, means[1])
 
 
 def judged(evidence: list[Evidence], model: Model) -> list[list[float]]:
@@ -119,7 +121,8 @@ def judge(run: ValidationCase) -> None:
         low, high = scipy.stats.binom.ppf([0.025, 0.975], len(ratios), 0.95)
         run.between(f"{name} within statistics and the model, of {len(ratios)}", int(np.sum(np.abs(ratios) <= 1)), low, high, because="central 95 % of the binomial distribution")
         low, high = scipy.stats.chi2.ppf([0.005, 0.995], len(ratios)) / len(ratios)
-        run.between(f"mean square of the {name}, over that of a normal distribution", float(np.mean(ratios**2)) * 1.96**2, low, high, because="central 99 % of chi-square: neither too narrow nor too wide")
+        square = float(np.mean(ratios**2)) * 1.96**2
+        run.between(f"mean square of the {name}, over that of a normal distribution", square, low, high, because="central 99 % of chi-square")
         places = [[one.study, one.layer, one.throw_number, one.depth] for one in chosen for _ in one.change]
         rows += [[*place, *(f"{value:.4f}" for value in values)] for place, values in zip(places, found, strict=True)]
     run.follows("judged.csv", JUDGED, rows)

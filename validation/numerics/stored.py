@@ -42,7 +42,7 @@ def variances(points: Sequence[Point]) -> Floats:
 
 def slope(error: str, study: str, layer: str, throw_number: float, depth: float, value: float, variance: float) -> Evidence:
     """The change over a difference of 1 of the number of one error."""
-    return Evidence(study, layer, throw_number, depth, np.array([value]), np.array([[variance]]), np.array([[one == error for one in ERRORS]], dtype=float))
+    return Evidence(study, layer, throw_number, depth, np.array([value]), np.array([[variance]]), np.array([[float(one == error) for one in ERRORS]]))
 
 
 def line(points: Sequence[Point]) -> tuple[float, float]:
@@ -57,7 +57,7 @@ def line(points: Sequence[Point]) -> tuple[float, float]:
 def softness() -> Iterator[Evidence]:
     """Layers of deep_layers with all moduli whose wave number is no larger than here, the stiffest among them."""
     folder = VALIDATION / "deep_layers"
-    groups: dict[tuple[str, str, str], list[tuple[float, Point]]] = {}
+    groups: dict[tuple[str, str, str], list[Point]] = {}
     wave_numbers = {(row["layer"], float(row["throw_number"]), float(row["modulus_MPa"])): float(row["wave_number"]) for row in read_table(folder / "errors.csv")}
     for row in read_table(folder / "grid.csv"):
         layer, throw, modulus = f"{row['grains']}, {row['depth']} d", float(row["throw_number"]), float(row["modulus_MPa"])
@@ -67,10 +67,10 @@ def softness() -> Iterator[Evidence]:
         s = known[0][1] * (known[0][0] / modulus) ** (1 / 3)
         if s <= SOFTEST[1]:
             point = Point(size_of("softness", s), float(row["efficiency"]), float(row["half_width"]), int(row["packings"]))
-            groups.setdefault((layer, row["throw_number"], row["depth"]), []).append((modulus, point))
-    for (layer, throw, depth), points in groups.items():
+            groups.setdefault((layer, row["throw_number"], row["depth"]), []).append(point)
+    for (name, throw_number, depth), points in groups.items():
         if len(points) > 1:
-            yield slope("softness", "deep_layers", layer, float(throw), float(depth), *line([point for _, point in points]))
+            yield slope("softness", "deep_layers", name, float(throw_number), float(depth), *line(points))
 
 
 def boxes() -> Iterator[Evidence]:
@@ -83,13 +83,14 @@ def boxes() -> Iterator[Evidence]:
         yield slope("box", "convergence", "boxes", float(throw), 4, *line(points))
     rows = read_table(VALIDATION / "convergence/result.csv")
     sides = {"length": lambda value: box_size(value, "18 mm"), "width": lambda value: box_size("36 mm", value)}
-    points = [point_of(row, sides[row["variation"]](row["value"])) for row in rows if row["variation"] in sides]
+    varied = [(row, sides[row["variation"]](row["value"])) for row in rows if row["variation"] in sides]
+    points = [point_of(row, size, 1 / size) for row, size in varied]
     yield slope("box", "convergence", "length and width", 2, 4, *line(points))
 
 
-def point_of(row: Row, size: float) -> Point:
+def point_of(row: Row, size: float, area: float) -> Point:
     """Of convergence, whose layers have four packings."""
-    return Point(size, float(row["efficiency"]), float(row["half_width"]), 4)
+    return Point(size, float(row["efficiency"]), float(row["half_width"]), 4, area)
 
 
 def box_size(length: str, width: str) -> float:
@@ -99,7 +100,7 @@ def box_size(length: str, width: str) -> float:
 def steps() -> Iterator[Evidence]:
     """The layer of convergence."""
     rows = [row for row in read_table(VALIDATION / "convergence/result.csv") if row["variation"] == "time_step" and row["value"] != "0.4"]  # limited to 0.3
-    yield slope("step", "convergence", "time step", 2, 4, *line([point_of(row, float(row["value"])) for row in rows]))
+    yield slope("step", "convergence", "time step", 2, 4, *line([point_of(row, float(row["value"]), 1) for row in rows]))
 
 
 AREAS = {"result.csv": {"ordinary": 40, "accurate": 160}, "deeper.csv": {"coarse": 27, "ordinary": 40, "accurate": 108}}  # of whole_interval
@@ -122,10 +123,10 @@ def pair(table: str, row: Row, areas: dict[str, int]) -> Evidence:
         s = wave_number(inputs, modulus) * (diameter / GRAIN) ** (1 / 3)  # it goes with the third root of the diameter
         sizes.append([size_of("softness", s), size_of("box", area), size_of("step", 0.2)])
     count = len(points) - 1
-    less_accurate = np.column_stack([np.eye(count), -np.ones(count)])
-    covariance = less_accurate @ np.diag(variances(points)) @ less_accurate.T
-    change = less_accurate @ [point.efficiency for point in points]
-    return Evidence(f"whole_interval, {table}", row["layer"], inputs["throw_number"], inputs["depth"], change, covariance, less_accurate @ np.array(sizes))
+    less_accurate: Floats = np.column_stack([np.eye(count), -np.ones(count)])
+    covariance: Floats = less_accurate @ np.diag(variances(points)) @ less_accurate.T
+    change: Floats = less_accurate @ np.array([point.efficiency for point in points])
+    return Evidence(f"whole_interval, {table}", row["layer"], inputs["throw_number"], inputs["depth"], change, covariance, less_accurate @ np.array(sizes), points[-1].efficiency)
 
 
 def known() -> list[Evidence]:
