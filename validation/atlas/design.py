@@ -15,6 +15,7 @@ DIAMETER = 3  # mm, of base.toml
 CHUNK = 16  # layers of a campaign
 SEED = 20261126  # of the layers that judge, and of the Sobol sequences
 Part = dict[str, tuple[float, float]]  # ranges that differ from RANGES
+Columns = dict[str, NDArray[np.float64]]  # values of each input
 SHALLOW: Part = {"depth": (3.0, 6.0)}
 UPHILL: Part = {**SHALLOW, "throw_number": (0.7, 2.2), "tan_inclination": (0.0, 0.1)}
 USUAL: Part = {**SHALLOW, "throw_number": (1.0, 2.4)}
@@ -23,6 +24,38 @@ DEEP: Part = {"depth": (6.0, 20.0)}
 # everywhere, where the first campaigns left the largest errors, and where most troughs run, and deep layers, each of which takes minutes.
 RECURRENCE = 5
 SEQUENCES: list[tuple[int, Part, int]] = [(4, SHALLOW, SEED), (2, UPHILL, SEED + 1), (4, USUAL, SEED + 3), (2, DEEP, SEED + 2)]  # campaigns, part, seed
+
+# The wider domain, where plants are; it takes the place of RANGES when the surface is fitted anew. Amplitudes are drawn evenly by their logarithm.
+WIDER = {**RANGES, "tan_inclination": (-0.18, 0.18), "amplitude": (0.1, 4.0), "depth": (2.0, 20.0)}
+LEAST_GRIP = 0.03  # friction less |tan(inclination)|: without grip a layer slides down ever faster, and has no mean speed
+WIDER_SEED = 20261128
+DRAWN = 1024  # points of a sequence, from which layers are chosen in their order
+NEW: Part = {"depth": (2.0, 6.0)}  # only what lies outside of RANGES
+CLIMBING: Part = {"depth": (2.0, 6.0), "throw_number": (0.7, 1.4), "tan_inclination": (0.0, 0.18)}
+NEW_DEEP: Part = {"depth": (6.0, 20.0)}  # only what lies outside of RANGES
+WIDER_OWN: list[tuple[str, int, Part, int]] = [("new", 4, NEW, WIDER_SEED), ("climbing", 3, CLIMBING, WIDER_SEED + 1), ("new_deep", 2, NEW_DEEP, WIDER_SEED + 2)]
+WIDER_RANDOM: list[tuple[str, int, Part, int]] = [("random", 4, NEW, WIDER_SEED + 3), ("random_deep", 1, NEW_DEEP, WIDER_SEED + 4)]  # they judge; no choice rests on them
+
+
+def wider_campaigns() -> dict[str, Columns]:
+    """The layers of each campaign of the wider domain: of Sobol sequences, and random ones."""
+    found: dict[str, Columns] = {}
+    for name, campaigns, part, seed in WIDER_OWN + WIDER_RANDOM:
+        every = wider(CHUNK * campaigns, part, seed, is_random=name.startswith("random"))
+        found |= {f"{name}{k}": {key: values[CHUNK * k : CHUNK * (k + 1)] for key, values in every.items()} for k in range(campaigns)}
+    return found
+
+
+def wider(count: int, part: Part, seed: int, is_random: bool) -> Columns:
+    """The first layers of a sequence over a part of the wider domain that have grip."""
+    unit = np.random.default_rng(seed).random((DRAWN, len(WIDER))) if is_random else sobol(DRAWN, seed)
+    columns = {name: low + (high - low) * unit[:, k] for k, (name, (low, high)) in enumerate((WIDER | part).items())}
+    least, most = WIDER["amplitude"]
+    columns["amplitude"] = least * (most / least) ** ((columns["amplitude"] - least) / (most - least))
+    chosen = columns["friction"] >= np.abs(columns["tan_inclination"]) + LEAST_GRIP
+    if part is not CLIMBING:
+        chosen &= np.any([(columns[name] < low) | (columns[name] > high) for name, (low, high) in RANGES.items()], axis=0)
+    return {name: values[chosen][:count] for name, values in columns.items()}
 
 
 def own_campaigns() -> list[NDArray[np.float64]]:
@@ -44,8 +77,8 @@ def to_unit(name: str, value: float) -> float:
     return (value - low) / (high - low)
 
 
-def sobol(count: int, seed: int) -> NDArray[np.float64]:
-    return np.asarray(qmc.Sobol(len(RANGES), seed=seed).random(count))
+def sobol(count: int, seed: int, dimensions: int = len(RANGES)) -> NDArray[np.float64]:
+    return np.asarray(qmc.Sobol(dimensions, seed=seed).random(count))
 
 
 def recurrence(count: int, start: int) -> NDArray[np.float64]:
@@ -62,9 +95,13 @@ def at_random(count: int, part: Part, seed: int = SEED) -> NDArray[np.float64]:
     return within(part, np.random.default_rng(seed).random((count, len(RANGES))))
 
 
-def keys_of(unit: NDArray[np.float64]) -> dict[str, list[str] | list[float]]:
-    """{key of the campaign file: its values} of points of the unit cube."""
-    columns = {name: low + (high - low) * unit[:, k] for k, (name, (low, high)) in enumerate(RANGES.items())}
+def columns_of(unit: NDArray[np.float64]) -> Columns:
+    """The inputs at points of the unit cube."""
+    return {name: low + (high - low) * unit[:, k] for k, (name, (low, high)) in enumerate(RANGES.items())}
+
+
+def keys_of(columns: Columns) -> dict[str, list[str] | list[float]]:
+    """{key of the campaign file: its values} of layers."""
     short = {name: [f"{value:.4f}" for value in values] for name, values in columns.items()}
     numbers = {name: [float(value) for value in values] for name, values in short.items()}
     return {

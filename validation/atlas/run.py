@@ -55,8 +55,13 @@ Floats = NDArray[np.float64]
 
 def campaign_at(run: ValidationCase, unit: Floats, changes: dict[str, Any]) -> str:
     """A campaign file with layers at points of the unit cube."""
+    return campaign_of(run, design.columns_of(unit), changes)
+
+
+def campaign_of(run: ValidationCase, columns: design.Columns, changes: dict[str, Any]) -> str:
+    """A campaign file with a layer for each row of the columns."""
     text = campaign_text(run.sections(), {"campaign.name": "atlas", **changes}, {}).replace("[sweep]", "[zip]")
-    return text + "".join(f'"{key}" = {toml_value(values)}\n' for key, values in design.keys_of(unit).items())
+    return text + "".join(f'"{key}" = {toml_value(values)}\n' for key, values in design.keys_of(columns).items())
 
 
 def layers_at(run: ValidationCase, name: str, unit: Floats, changes: dict[str, Any]) -> list[list[object]]:
