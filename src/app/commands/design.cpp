@@ -216,7 +216,7 @@ Exit codes:
 
 Examples:
   vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
-      --length "3 m" --friction 0.3 --friction-uncertainty 0.03 --grain-diameter "5 mm" --machine-number 4
+      --length "3 m" --friction 0.3+-0.03 --grain-diameter "5 mm" --machine-number 4
   vibrotrough theory calibrate speeds.csv --free friction --posterior friction.json
   vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
       --posterior friction.json --model point-mass,rolling-layer --objective least-machine-number \
