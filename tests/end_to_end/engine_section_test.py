@@ -12,7 +12,7 @@ import h5py
 from trough_program import PATIENCE, EndToEndTest, campaign_text
 
 GRAVITY = 9.81
-ONE_SIZE = {"grains.diameter_spread": 0.0, "measure.packings": 1}
+ONE_SIZE = {"grains.diameter_spread": 0.0, "grains.youngs_modulus": "1 MPa", "measure.packings": 1}
 RADIUS, DENSITY, YOUNG, POISSON = 1.5e-3, 1400.0, 1e6, 0.35  # of trough_program.SMALL
 MASS = DENSITY * 4 / 3 * math.pi * RADIUS**3
 MODULUS = YOUNG / (2 * (1 - POISSON**2))

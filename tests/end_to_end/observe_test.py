@@ -187,7 +187,7 @@ def energy(packing):
             (function.format("", "return 1.0").replace("def mine", "def efficiency").replace('"m"', '"1"'), "efficiency is already a quantity of the program"),
             (function.format("", "return 1.0").replace("def mine", "def wall_time").replace('"m"', '"s"'), "already a quantity"),
             (function.format("", "return 1.0").replace("def mine", "def Mine"), "'Mine' cannot be the name of an observable"),
-            (function.format(", needs='contacts'", "return 1.0"), "no packing keeps contacts, which are written of layers of spheres alone: write contacts = true and frames_per_cycle = 20 under [output]"),
+            (function.format(", needs='contacts'", "return 1.0"), "no packing keeps contacts"),
             (function.format(", needs='rotor.csv'", "return 1.0"), "no packing has the file rotor.csv"),
             ("x = 1\n", "defines no observable"),
         ), 2):  # fmt: skip

@@ -61,7 +61,7 @@ class Prepare(EndToEndTest):
             self.run_tasks()
             done = self.prepare(campaign)
         self.assertGreater(rounds, 1, "the test is about rounds")
-        self.assertIn("2 of 2 cases have ended\nnothing is missing; see the results with: vibrotrough compare", done.stdout)
+        self.assertIn("2 of 2 cases have ended\nnothing is missing", done.stdout)
         by_tasks = without_wall_time(self.table())
         local = self.folder / "local"
         self.run_campaign(campaign, output=local, wanted=None)

@@ -125,10 +125,8 @@ TEST(Materials, AreVariedByTheirNumber) {
 
 TEST(Materials, MistakesAreNamedWithTheirPlace) {
     auto const error = [](std::string const& lists) { return error_of(lists + "\n" + with_lists("")); };
-    EXPECT_THAT(
-        error("[[materials]]\nmass_fraction = 0.1"),
-        HasSubstr(":2:1: materials.1.mass_fraction: number 1 of [[materials]] has no name; write name = "
-                  "\"fines\""));
+    EXPECT_THAT(error("[[materials]]\nmass_fraction = 0.1"),
+                HasSubstr(":2:1: materials.1.mass_fraction: number 1 of [[materials]] has no name"));
     EXPECT_THAT(error("[[materials]]\nname = \"a\""),
                 HasSubstr("exactly one of mass_fraction and number_frac"));
     EXPECT_THAT(error("[[materials]]\nname = \"a\"\nmass_fraction = 0.6\n[[materials]]\nname = "
@@ -143,7 +141,7 @@ TEST(Materials, MistakesAreNamedWithTheirPlace) {
     EXPECT_THAT(error("[[materials]]\nname = \"a\"\nmass_fraction = 0.6\nshape = \"cube\""),
                 HasSubstr(":4:1: materials.1.shape: unknown key"));
     EXPECT_THAT(error("[[pairs]]\nmaterials = [\"grains\", \"b\"]\nfriction = 0.1"),
-                HasSubstr("does not name two different materials of this layer; write two of grains"));
+                HasSubstr("does not name two different materials of this layer"));
     EXPECT_THAT(error(fines + "[[pairs]]\nmaterials = [\"grains\", \"fines\"]"),
                 HasSubstr("gives neither friction nor restitution"));
     EXPECT_THAT(error(fines + "[[pairs]]\nmaterials = [\"grains\", \"fines\"]\nfriction = 0.1\n"

@@ -33,8 +33,7 @@ TEST(MessageUnits, TellWhereADepthInDiametersBelongs) {
     EXPECT_THAT(error_of(with("height = \"12 mm\"", "height = \"8d\"")),
                 HasSubstr("'8d' is a depth in diameters of the grains"));
     EXPECT_THAT(error_of(with("height = \"12 mm\"", "height = \"8 d\"")),
-                HasSubstr("layer.height: '8 d' is a depth in diameters of the grains; write "
-                          "layer.diameters = 8"));
+                HasSubstr("layer.height: '8 d' is a depth in diameters of the grains"));
 }
 
 // 4 diameters of 3 mm are 12 mm.

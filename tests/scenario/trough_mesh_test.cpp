@@ -311,19 +311,18 @@ TEST_F(MeshCampaign, PairsGiveSolidsAFrictionOfTheirOwn) {
     EXPECT_THAT(own_parts(scenario(on_mesh())), testing::IsEmpty());
 
     EXPECT_THAT(error(on_mesh() + "\n[[pairs]]\nmaterials = [\"ruber\", \"grains\"]\nfriction = 0.8\n"),
-                HasSubstr("write two of grains; the mesh's solids are: steel, rubber"));
+                HasSubstr("the mesh's solids are: steel, rubber"));
     EXPECT_THAT(error(on_mesh() + "\n[[pairs]]\nmaterials = [\"rubber\", \"steel\"]\nfriction = 0.8\n"),
                 HasSubstr("or one and a solid of the trough's mesh"));
     EXPECT_THAT(
         error(on_mesh() + rubber + "\n[[pairs]]\nmaterials = [\"grains\", \"steel\"]\nrestitution = 0.8\n"),
-        HasSubstr("every solid of the mesh has coefficients of its own; leave one of them to"));
+        HasSubstr("every solid of the mesh has coefficients of its own"));
 }
 
 TEST_F(MeshCampaign, MistakesAreNamed) {
     write("vee.stl", vee());
     EXPECT_THAT(error(on_mesh(with("length = \"36 mm\"", "length = \"35 mm\""))),
-                HasSubstr("trough.mesh: vee.stl: it is 36 mm long, and layer.length is 35 mm; write "
-                          "layer.length = \"36 mm\""));
+                HasSubstr("trough.mesh: vee.stl: it is 36 mm long, and layer.length is 35 mm"));
     EXPECT_THAT(error(on_mesh(with("restitution = 0.5", "restitution = 0.5\nmesh_unit = \"m\""))),
                 HasSubstr("is mesh_unit wrong?"));
     EXPECT_THAT(error(on_mesh(with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0.1"))),
@@ -345,7 +344,7 @@ TEST_F(MeshCampaign, MistakesAreNamed) {
     add_rectangle(closed, {41, -9, 9}, {41, 9, 9}, {41, 9, 12}, {41, -9, 12});
     write("vee.stl", closed);
     EXPECT_THAT(error(on_mesh()),
-                HasSubstr("there is an upright plate in one of its ends, which are joined; remove it"));
+                HasSubstr("there is an upright plate in one of its ends, which are joined"));
     std::vector<Triangle> tilted;
     add_rectangle(tilted, {0, 0, 0}, {36, 0, 0}, {36, 18, 2}, {0, 18, 2});
     write("vee.stl", tilted);

