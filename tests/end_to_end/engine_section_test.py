@@ -66,6 +66,7 @@ class EngineSection(EndToEndTest):
 
     def deck_of(self, campaign):
         decks = self.folder / "decks"
+        shutil.rmtree(decks, ignore_errors=True)
         done = self.call("deck", campaign, "--output", decks, "--allow-extra")
         self.assertEqual(done.returncode, 0, done.stderr)
         return (decks / "case-001" / "packing-1" / "in.liggghts").read_text(), decks / "case-001" / "packing-1" / "trough.stl"
