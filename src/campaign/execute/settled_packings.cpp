@@ -98,8 +98,7 @@ struct SettledPackings::Settling {
 };
 
 std::string packing_key(deck::Deck const& deck, std::string const& engine_version) {
-    return core::sha256_hex(engine_version + "\n" + deck::digest_of(deck.settle_files))
-        .substr(0, 12);
+    return core::sha256_hex(engine_version + "\n" + deck::digest_of(deck.settle_files)).substr(0, 12);
 }
 
 SettledPackings::SettledPackings(boost::asio::io_context& context, engine::Engine const& engine,

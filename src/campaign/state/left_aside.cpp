@@ -23,10 +23,10 @@ std::string describe(LeftAside const& left, Plan const& plan) {
                                     left.first_fault));
     }
     if (left.other_cases > 0) {
-        parts.push_back(fmt::format("{} case folder{} that belong{} to no case of the campaign file, or to an older version of this "
-                                    "program (before 0.3 ids were others)",
-                                    left.other_cases, left.other_cases == 1 ? "" : "s",
-                                    left.other_cases == 1 ? "s" : ""));
+        parts.push_back(fmt::format(
+            "{} case folder{} that belong{} to no case of the campaign file, or to an older version of this "
+            "program (before 0.3 ids were others)",
+            left.other_cases, left.other_cases == 1 ? "" : "s", left.other_cases == 1 ? "s" : ""));
     }
     return fmt::format("{}", fmt::join(parts, "; "));
 }

@@ -30,8 +30,8 @@ Failure parse_failure(std::string_view text);
 
 /// What checkpoint.json says, which has to be compared with the files that it seals.
 struct CheckpointSeal {
-    Checkpoint checkpoint;        ///< that is sealed
-    std::string restart_sha256;   ///< of the restart file
+    Checkpoint checkpoint;       ///< that is sealed
+    std::string restart_sha256;  ///< of the restart file
     std::string deck_sha256;     ///< of the deck that wrote it
 };
 

@@ -14,8 +14,8 @@ namespace vibrotrough::campaign {
 
 /// One case of a campaign and the folder that holds all about it.
 struct PlannedCase {
-    /// 12 hexadecimal digits of a hash of the scenario in canonical form, of the templates of decks (not their
-    /// comments) and of the engine's version; also the name of `folder`.
+    /// 12 hexadecimal digits of a hash of the scenario in canonical form, of the templates of decks (not
+    /// their comments) and of the engine's version; also the name of `folder`.
     std::string id;
     std::shared_ptr<prepare::PreparedCase const> prepared;  ///< everything that follows from the scenario
     std::filesystem::path folder;                           ///< that holds it

@@ -16,8 +16,8 @@ namespace vibrotrough::scenario {
 /// shape, waveform and templates; named_files() returns them.
 std::string to_toml(Scenario const& scenario);
 
-/// What a case is, as text: to_toml() in canonical form, whatever numbers of the drive the user gave, with the
-/// digests of the files that it names, and without the name of the campaign and the limits of its cost.
+/// What a case is, as text: to_toml() in canonical form, whatever numbers of the drive the user gave, with
+/// the digests of the files that it names, and without the name of the campaign and the limits of its cost.
 std::string identity_of(Scenario const& scenario);
 
 /// Values of a case by the paths of their keys.
