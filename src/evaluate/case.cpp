@@ -23,8 +23,7 @@ core::Outcome outcome_of(measure::CaseEstimate const& estimate, scenario::Scenar
     if (has_given_length(scenario)) return core::Outcome::finished;
     if (estimate.steadiness == measure::Steadiness::branching) return core::Outcome::bistable_or_slow;
     if (estimate.steadiness == measure::Steadiness::drifting) return core::Outcome::not_steady;
-    bool const is_enough =
-        prepare::can_be_finished(scenario) && measure::is_precise(estimate, wanted_statistics(scenario));
+    bool const is_enough = estimate.half_width && prepare::is_narrow_enough(*estimate.half_width, scenario);
     return is_enough ? core::Outcome::finished : core::Outcome::not_precise;
 }
 

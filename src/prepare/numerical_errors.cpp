@@ -42,9 +42,23 @@ double whole_half_width(double statistics, NumericalErrors const& numerics) {
     return std::hypot(statistics, numerics.total());
 }
 
+namespace {
+
+/// Half-width of the statistics with which the whole is as wide as wanted; 0 where the numerical errors are.
+double most_statistics(double wanted, double numerics) {
+    return std::sqrt(std::max(0.0, wanted * wanted - numerics * numerics));
+}
+
+}  // namespace
+
 std::optional<double> left_for_statistics(double wanted, double numerics) {
-    double const room = wanted * wanted - numerics * numerics, least = least_share * wanted;
-    return room >= least * least ? std::optional(std::sqrt(room)) : std::nullopt;
+    double const room = most_statistics(wanted, numerics);
+    return room >= least_share * wanted ? std::optional(room) : std::nullopt;
+}
+
+bool is_narrow_enough(double statistics, scenario::Scenario const& s) {
+    double const numerics = numerical_errors(s).total(), wanted = s.measure.half_width;
+    return numerics <= wanted && statistics <= most_statistics(wanted, numerics);
 }
 
 scenario::MeasurementPlan statistics_plan(scenario::Scenario const& s, double half_width) {

@@ -54,6 +54,10 @@ scenario::MeasurementPlan statistics_plan(scenario::Scenario const& scenario, do
 /// The same for measure.half_width.
 scenario::MeasurementPlan statistics_plan(scenario::Scenario const& scenario);
 
+/// Whether statistics of this half-width make the whole interval as narrow as measure.half_width asks, by the
+/// numbers of statistics_plan(): what decides both when a case gets no more packings and how it ends.
+bool is_narrow_enough(double statistics, scenario::Scenario const& scenario);
+
 /// Whether the numerical errors leave room for statistics, so that the case can be finished.
 bool can_be_finished(scenario::Scenario const& scenario);
 
