@@ -1,7 +1,6 @@
 #include "scenario/reader/given_values.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <string>
 #include <utility>
 
@@ -70,8 +69,12 @@ std::string solids_to_name(std::vector<std::string> const& parts) {
     constexpr std::size_t most = 10;
     return parts.empty()
                ? ""
-               : fmt::format("; the mesh's solids are: {}{}", fmt::join(parts | std::views::take(most), ", "),
-                             parts.size() > most ? " ..." : "");
+               : fmt::format(
+                     "; the mesh's solids are: {}{}",
+                     fmt::join(parts.begin(),
+                               parts.begin() + static_cast<std::ptrdiff_t>(std::min(most, parts.size())),
+                               ", "),
+                     parts.size() > most ? " ..." : "");
 }
 
 /// Some of the mesh must be the trough itself, whose position is measured.
