@@ -40,9 +40,10 @@ struct Conveyor {
     std::optional<double> landing_friction = {};
     double air_drag = 0;  ///< kappa, 0 or in [1e-8, 1000]: the drag force is m omega kappa times the velocity
                           ///< of the mass; the air is at rest
-    double along_ratio = 1;  ///< elliptical drive: X = along_ratio sin(t + along_phase), Y = sin t
-    double along_phase = 0;  ///< rad
-    std::vector<Harmonic> along = {}, normal = {};  ///< harmonics of the acceleration of X and of Y
+    double along_ratio = 1;             ///< elliptical drive: X = along_ratio sin(t + along_phase), Y = sin t
+    double along_phase = 0;             ///< rad
+    std::vector<Harmonic> along = {};   ///< harmonics of the acceleration of X
+    std::vector<Harmonic> normal = {};  ///< and of Y
     double wall_friction = 0;  ///< friction coefficient between the layer and the two side walls, >= 0
     double wall_pressure_ratio = 0.5;  ///< Janssen's ratio k of horizontal to vertical stress, in [0, 1]
     double height_over_width = 0;      ///< H / W of the layer, >= 0

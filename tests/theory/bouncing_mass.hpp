@@ -115,9 +115,10 @@ class BouncingMass {
         starts_ = 0;
         Real const a = sign + sliding_, c = sign * gravity_ + sliding_ * weight_, start = t, w = sign * v;
         Real const bound = std::abs(a), cosine = std::cos(start);
-        // From rest the speed grows up to where the acceleration is zero.
+        // From rest the speed grows up to where the acceleration is zero; rounding may be just behind that.
         Real h = 0;
         if (w == 0) h = acceleration_end(a, c) - start;
+        if (h > turn * (1 - Real(1e-9))) h = 0;
         while (start + h < end) {
             Real const speed = w - a * (std::cos(start + h) - cosine) - c * h;
             Real const rate_now = a * std::sin(start + h) - c;

@@ -210,5 +210,15 @@ TEST(Conveyor, RunsAwayWhenLandingsHaveNoFriction) {
     EXPECT_TRUE(std::isfinite(solve(c).motion.velocity_efficiency));
 }
 
+// A trough that does not move along itself gives a mass without friction no force along it: all times are
+// zeros of it. Finding them took for ever.
+TEST(Conveyor, WithoutAnyForceAlongTheTroughIsIndifferent) {
+    Conveyor c{};
+    c.point = {2, 0.5, 0, 0};
+    c.along_ratio = 0;
+    c.normal = {{3, 0.5, 1}};
+    EXPECT_EQ(solve(c).motion.outcome, Outcome::indifferent);
+}
+
 }  // namespace
 }  // namespace vibrotrough::theory

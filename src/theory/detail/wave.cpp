@@ -139,6 +139,8 @@ void Crossings::find_of_sine(Wave const& wave) {
 void Crossings::find(Wave const& wave) {
     zeros_.clear();
     if (wave.overtones.empty()) return find_of_sine(wave);
+    positive_at_start_ = wave.constant >= 0;
+    if (!(wave.bound() > std::abs(wave.constant))) return;  // such as a wave that is zero
     double const bound = wave.bend_bound();
     int const nodes = nodes_per_period * wave.highest_order();
     double const step = two_pi / nodes;
