@@ -91,8 +91,7 @@ int common_startup_length(Runs runs);
 /// @throws std::invalid_argument when there are none, or their lengths differ
 CaseEstimate estimate_case(std::span<PackingValues const> packings, Precision const& wanted, int startup = 0);
 
-/// Whether the interval of a case is as narrow as wanted: what decides both when a case gets no more packings
-/// and how it ends.
+/// Whether the interval of a case is as narrow as wanted.
 bool is_precise(CaseEstimate const& estimate, Precision const& wanted);
 
 /// The number of packings after which the interval will probably be as narrow as wanted.

@@ -102,7 +102,10 @@ def judge_engineer(run: ValidationCase) -> None:
     layer = tomllib.loads((FOLDER / "engineer.toml").read_text(encoding="utf-8"))["layer"]
     simulated = [float(row["stroke_mm"]), float(row["turns_per_minute"]), float(row["vibration_angle_deg"]), float(layer["height"].split()[0])]
     for name, one in zip(("stroke_mm", "rpm", "vibration_angle_deg", "layer_depth_mm"), simulated, strict=True):
-        run.check(f"engineer's machine: {name.replace('_', ' ')}", found[name], one, 0.001 * one, because="as printed, four digits")
+        # The layer was simulated when a design and the depth of its layer agreed to 2 %; they agree exactly now, and a layer 0.1 mm
+        # deeper is as fast (0.0002 of the efficiency by the atlas).
+        share, why = (0.005, "a step of its depth") if name == "layer_depth_mm" else (0.001, "as printed, four digits")
+        run.check(f"engineer's machine: {name.replace('_', ' ')}", found[name], one, share * one, because=why)
     promise = found["models"][0]
     flow, width = (asked(run) * float(row[key]) for key in ("mass_flow_t_per_h", "mass_flow_half_width_t_per_h"))
     run.between("engineer's machine: mass flow less its half-width, t/h", flow - width, ENGINEERS_FLOW, 2 * ENGINEERS_FLOW, because="what was asked for")
