@@ -97,6 +97,96 @@ void stay_in_contact(NormalOrbit& orbit) {
     orbit.cycles = 1;
 }
 
+/// Follows the flights until their period is known, or that there is none.
+class PeriodSearch {
+  public:
+    PeriodSearch(Forces const& forces, FlightChain::Start const& first, NormalOrbit& orbit,
+                 std::vector<std::size_t> const* after_zero)
+        : chain_(forces),
+          may_doubt_(forces.restitution() > 0),
+          after_zero_(after_zero),
+          next_(first),
+          elapsed_(first.at.t),
+          orbit_(orbit) {}
+
+    void run() {
+        while (!has_followed(most_normal)) {
+            if ((next_.zero >= 0 && leaves_contact()) || flies()) break;
+        }
+        orbit_.next = next_;
+    }
+
+  private:
+    bool has_followed(int count) const {
+        return elapsed_ > two_pi * count && orbit_.hops.size() > static_cast<std::size_t>(count);
+    }
+    void found(std::size_t first) {
+        orbit_.first = first;
+        orbit_.cycles = cycles_from(orbit_.hops, first);
+    }
+    bool leaves_contact();
+    bool flies();
+
+    FlightChain chain_;
+    bool may_doubt_;
+    std::vector<std::size_t> const* after_zero_;
+    FlightChain::Start next_;
+    double elapsed_;
+    NormalOrbit& orbit_;
+    Growth growth_;                  // since the last contact
+    double peak_ = 1;                // of it
+    double chaos_start_ = HUGE_VAL;  // its logarithm where chaos is looked for
+    bool irregular_ = false;         // rounding has decided what follows a contact
+    std::size_t since_ = 0;          // hop after the last contact
+};
+
+/// At a take-off from contact: what follows does not depend on what was before. @return whether it is known
+bool PeriodSearch::leaves_contact() {
+    auto const zero = static_cast<std::size_t>(next_.zero);
+    if (after_zero_ != nullptr) orbit_.joined = (*after_zero_)[zero];
+    if (orbit_.joined != never) return true;
+    std::size_t& before = orbit_.left_at[zero];
+    bool const returns = before != never;
+    if (returns && peak_ < hopeless_growth) {
+        found(before);
+        orbit_.in_doubt = peak_ >= most_growth && may_doubt_;
+        if (orbit_.in_doubt) fly_again(chain_, next_, orbit_);
+        return true;
+    }
+    before = since_ = orbit_.hops.size();
+    // Rounding decides what happens after such a growth: a motion that ends elsewhere is to be found.
+    if (returns) next_ = with_rounding(next_, orbit_.hops.size());
+    irregular_ = irregular_ || returns;
+    growth_ = {};
+    peak_ = 1;
+    chaos_start_ = std::min(chaos_start_, 0.0);
+    return false;
+}
+
+/// The next flight. @return whether no more is to be found
+bool PeriodSearch::flies() {
+    FlightChain::Start const from = next_;
+    Hop const hop = chain_.fly(from, next_);
+    orbit_.hops.push_back(hop);
+    if (!std::isfinite(hop.leave.t)) {
+        stay_in_contact(orbit_);
+        return true;
+    }
+    elapsed_ += duration(hop);
+    growth_.multiply(chain_.sensitivity(hop, from.rate));
+    if (peak_ < hopeless_growth) peak_ = std::max(peak_, growth_.factor());
+    if (chaos_start_ == HUGE_VAL && has_followed(chaos_from)) chaos_start_ = growth_.logarithm();
+    // An irregular motion may still end elsewhere.
+    if (has_followed(chaos_to) && !irregular_ &&
+        growth_.logarithm() - chaos_start_ > std::log(chaotic_growth))
+        return true;
+    if (next_.zero >= 0) return false;
+    double const match = has_followed(most_normal / 2) ? state_match : close_match;
+    std::size_t const k = hops_to_return(orbit_.hops, since_, match);
+    if (k > 0) found(orbit_.hops.size() - k);
+    return k > 0;
+}
+
 }  // namespace
 
 FlightChain::Start with_rounding(FlightChain::Start start, std::size_t number) {
@@ -113,8 +203,7 @@ void find_normal_orbit(Forces const& forces, MotionStart const& start, NormalOrb
     orbit.in_doubt = false;
     orbit.joined = never;
     orbit.begin = start.at;
-    FlightChain const chain(forces);
-    FlightChain::Start next = chain.from(start);
+    FlightChain::Start next = FlightChain(forces).from(start);
     orbit.in_contact = !std::isfinite(next.at.t);
     orbit.left_at.assign(forces.presses().count(), never);
     if (orbit.in_contact) {
@@ -124,59 +213,7 @@ void find_normal_orbit(Forces const& forces, MotionStart const& start, NormalOrb
     double const ahead = two_pi * std::floor(next.at.t * (1 / two_pi));
     next.at.t -= ahead;
     orbit.begin.t -= ahead;
-    Growth growth;
-    double chaos_start = HUGE_VAL, peak = 1;  // of the growth since the last contact
-    bool irregular = false;
-    std::size_t since = 0;  // the last contact
-    double elapsed = next.at.t;
-    auto const has_followed = [&](int count) {
-        return elapsed > two_pi * count && orbit.hops.size() > static_cast<std::size_t>(count);
-    };
-    while (!has_followed(most_normal)) {
-        if (next.zero >= 0) {
-            if (after_zero != nullptr) orbit.joined = (*after_zero)[static_cast<std::size_t>(next.zero)];
-            if (orbit.joined != never) break;
-            std::size_t& before = orbit.left_at[static_cast<std::size_t>(next.zero)];
-            bool const returns = before != never;
-            if (returns && peak < hopeless_growth) {
-                orbit.first = before;
-                orbit.cycles = cycles_from(orbit.hops, before);
-                orbit.in_doubt = peak >= most_growth && forces.restitution() > 0;
-                if (orbit.in_doubt) fly_again(chain, next, orbit);
-                break;
-            }
-            before = since = orbit.hops.size();
-            // Rounding decides what happens after such a growth: a motion that ends elsewhere is to be found.
-            if (returns) next = with_rounding(next, orbit.hops.size());
-            irregular = irregular || returns;
-            growth = {};
-            peak = 1;
-            chaos_start = std::min(chaos_start, 0.0);
-        }
-        FlightChain::Start const from = next;
-        Hop const hop = chain.fly(from, next);
-        orbit.hops.push_back(hop);
-        if (!std::isfinite(hop.leave.t)) {
-            stay_in_contact(orbit);
-            break;
-        }
-        elapsed += duration(hop);
-        growth.multiply(chain.sensitivity(hop, from.rate));
-        if (peak < hopeless_growth) peak = std::max(peak, growth.factor());
-        if (chaos_start == HUGE_VAL && has_followed(chaos_from)) chaos_start = growth.logarithm();
-        // Where rounding has decided what follows a contact, the motion may still end elsewhere.
-        bool const chaotic = growth.logarithm() - chaos_start > std::log(chaotic_growth);
-        if (has_followed(chaos_to) && chaotic && !irregular) break;
-        if (next.zero >= 0) continue;
-        double const match = has_followed(most_normal / 2) ? state_match : close_match;
-        std::size_t const k = hops_to_return(orbit.hops, since, match);
-        if (k > 0) {
-            orbit.first = orbit.hops.size() - k;
-            orbit.cycles = cycles_from(orbit.hops, orbit.first);
-            break;
-        }
-    }
-    orbit.next = next;
+    PeriodSearch(forces, next, orbit, after_zero).run();
 }
 
 }  // namespace vibrotrough::theory::detail

@@ -6,8 +6,10 @@
 namespace vibrotrough::theory::detail {
 namespace {
 
-constexpr double newton_settled = 1e-13;  // omega r cos(beta): the distance to the state that repeats
-constexpr int most_newton_steps = 12, most_attempts = 60, periods_between = 50;
+// omega r cos(beta): the distance to the state that repeats, and the change in a plain period where phases
+// that are about to appear keep Newton's method from settling.
+constexpr double newton_settled = 1e-13, plain_settled = 1e-11;
+constexpr int most_newton_steps = 12, most_attempts = 150, periods_between = 20;
 
 double size(RollingState const& s) {
     return std::sqrt(s.v * s.v + s.w * s.w);
@@ -62,8 +64,10 @@ bool RollingSearch::settle(RollingWalk const& walk, RollingNormal const& normal,
         for (int k = 0; k < periods_between; ++k) guess = walk.follow(normal, guess, nullptr);
         s = guess;
         repeats = newton(walk, normal, s, most, record);
+        if (repeats) break;
+        s = walk.follow(normal, guess, &record);
+        repeats = size({s.v - guess.v, s.w - guess.w}) <= plain_settled * (1 + std::abs(s.v));
     }
-    if (!repeats) walk.follow(normal, guess, &record);
     before_ = repeats ? state_ : RollingState{};
     state_ = repeats ? s : RollingState{};
     return repeats;
