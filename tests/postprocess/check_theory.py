@@ -237,7 +237,7 @@ def check_map_against_program():
 def check_unusual_numbers():
     """What hardly any machine has is told with the slip that explains it, as the program does; also of one number among many."""
     machine = {"rpm": 960, "stroke_mm": 9.7, "vibration_angle_deg": 30, "friction": 0.3}
-    slips = [({"rpm": [960, 16]}, "were 16 Hz meant, not rpm?"), ({"stroke_mm": 9700}, "a stroke of 9700 mm is unusual"),
+    slips = [({"rpm": [960, 16]}, "were 16 Hz meant, not rpm?"), ({"stroke_mm": 300}, "a stroke of 300 mm is unusual"),
              ({"friction": np.array([0.3, 30])}, "an angle of friction"), ({"vibration_angle_deg": 0.52}, "were radians meant")]  # fmt: skip
     for changes, words in slips:
         with warnings.catch_warnings(record=True) as told:
@@ -245,7 +245,7 @@ def check_unusual_numbers():
             theory.solve(**machine | changes)
         assert any(words in str(one.message) for one in told), (changes, [str(one.message) for one in told])
         assert told[0].filename == __file__, "the warning points to the line of the user"
-    numbers = {"frequency_hz": 960, "amplitude_mm": 4, "vibration_angle_deg": 30, "friction": 0.3}
+    numbers = {"frequency_hz": 960, "amplitude_mm": 0.04, "vibration_angle_deg": 30, "friction": 0.3}
     for call in (theory.trace, theory.quantities):
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
