@@ -20,8 +20,8 @@ constexpr double least_throw = 1e-300;  // the theory divides by it
 double read_throw(std::string const& option, std::string const& text) {
     double const value = read_number(option, text, "2");
     if (value > 0 && value <= theory::largest_throw_number) return std::max(value, least_throw);
-    throw core::InputError(fmt::format("{} {}: must be above 0 and at most 100; write for example {} 2",
-                                       option, text, option));
+    throw core::InputError(
+        fmt::format("{} {}: must be above 0 and at most 100; write for example {} 2", option, text, option));
 }
 
 /// Reads "3,0.1,30 deg": order, amplitude of acceleration, phase.
@@ -35,8 +35,8 @@ theory::Harmonic read_harmonic(std::string const& option, std::string const& tex
     }
     theory::Harmonic harmonic{};
     harmonic.order = read_count(option, text.substr(0, first), "\"3,0.1,30 deg\"", 1, 100);
-    harmonic.amplitude = read_number_within(option, text.substr(first + 1, second - first - 1),
-                                            "\"3,0.1,30 deg\"", -100, 100);
+    harmonic.amplitude =
+        read_number_within(option, text.substr(first + 1, second - first - 1), "\"3,0.1,30 deg\"", -100, 100);
     harmonic.phase = read_angle(option, text.substr(second + 1), "3,0.1,30 deg", -720, 720);
     return harmonic;
 }
