@@ -28,7 +28,7 @@ SPECIAL = ["0", "-0", "1e-323", "2.2e-308", "1e-300", "1e-100", "1e-17", "1e-16"
            "2", "3.2969084", "10", "100", "1e4", "1e6", "1e9", "1e16", "1e100", "1e300", "1.7e308", "1e309", "inf", "-inf", "nan", "-1", "-1e-300",
            "-1e300", "0x1p3", "1,5", "", " ", "1e", "٣"]  # fmt: skip
 BASE: dict[str, list[list[str]]] = {
-    "drive": [["--throw-number", "2"], ["--machine-number", "4"], ["--throw-number", "0.8"], ["--throw-number", "6"], ["--throw-number", "1e4"]],
+    "drive": [["--throw-number", "2"], ["--machine-number", "4"], ["--throw-number", "0.8"], ["--throw-number", "6"], ["--throw-number", "60"]],
     "angle": [["--vibration-angle", "30 deg"], ["--tan-vibration-angle", "0.25"]],
     "slope": [[], ["--inclination", "-3 deg"], ["--tan-inclination", "0.05"]],
     "friction": [["--friction", "0.3"]],

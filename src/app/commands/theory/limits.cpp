@@ -56,7 +56,8 @@ Json answers(TheoryLimitsArguments const& options, Inputs const& in) {
         {"pn_machine_number_level_small_angle", limits.pn_machine_number},
     };
     if (!options.throw_number) return json;
-    double const gamma = read_number_within("--throw-number", *options.throw_number, "0.8", 1e-9, 1e4);
+    double const gamma = read_number_within("--throw-number", *options.throw_number, "0.8", 1e-9,
+                                            theory::largest_throw_number);
     auto const pn = theory::pn_motion({gamma, in.tan_beta, in.tan_alpha, in.mu});
     json["pn_closed_form"] = nullptr;
     if (pn) {

@@ -19,9 +19,9 @@ constexpr double least_throw = 1e-300;  // the theory divides by it
 
 double read_throw(std::string const& option, std::string const& text) {
     double const value = read_number(option, text, "2");
-    if (value > 0 && value <= 1e4) return std::max(value, least_throw);
-    throw core::InputError(fmt::format("{} {}: must be above 0 and at most 10000; write for example {} 2",
-                                       option, text, option));
+    if (value > 0 && value <= theory::largest_throw_number) return std::max(value, least_throw);
+    throw core::InputError(
+        fmt::format("{} {}: must be above 0 and at most 100; write for example {} 2", option, text, option));
 }
 
 /// Reads "3,0.1,30 deg": order, amplitude of acceleration, phase.
@@ -35,8 +35,8 @@ theory::Harmonic read_harmonic(std::string const& option, std::string const& tex
     }
     theory::Harmonic harmonic{};
     harmonic.order = read_count(option, text.substr(0, first), "\"3,0.1,30 deg\"", 1, 100);
-    harmonic.amplitude = read_number_within(option, text.substr(first + 1, second - first - 1),
-                                            "\"3,0.1,30 deg\"", -1000, 1000);
+    harmonic.amplitude =
+        read_number_within(option, text.substr(first + 1, second - first - 1), "\"3,0.1,30 deg\"", -100, 100);
     harmonic.phase = read_angle(option, text.substr(second + 1), "3,0.1,30 deg", -720, 720);
     return harmonic;
 }
@@ -79,7 +79,7 @@ void TheoryOptions::add_extensions(CLI::App& command) {
         command.add_option(name, text, help)->group(group);
     };
     add("--restitution", restitution_,
-        "e, normal restitution coefficient, from 0 (plastic, default) to 0.99 (Eq. 23)");
+        "e, normal restitution coefficient, from 0 (plastic, default) to 0.95 (Eq. 23)");
     add("--slowest-rebound", slowest_rebound_,
         "Rebounds slower than this count as contact, in omega r sin(beta); default: 1e-6");
     add("--static-friction", static_friction_,
@@ -220,7 +220,7 @@ theory::Inputs TheoryOptions::given() const {
     set(Input::friction, "--friction", friction_, "0.3", 0, 1e6);
     set(Input::static_friction, "--static-friction", static_friction_, "0.4", 0, 1e6);
     set(Input::landing_friction, "--landing-friction", landing_friction_, "0.1", 0, 1e6);
-    set(Input::restitution, "--restitution", restitution_, "0.2", 0, 0.99);
+    set(Input::restitution, "--restitution", restitution_, "0.2", 0, 0.95);
     set(Input::air_drag, "--air-drag", air_drag_, "0.01", 0, 1000);
     set(Input::along_ratio, "--along-ratio", along_ratio_, "0.8", -1000, 1000);
     set(Input::wall_friction, "--wall-friction", wall_friction_, "0.3", 0, 1000);
