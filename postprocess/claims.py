@@ -26,7 +26,9 @@ class ClaimError(Exception):
 
 
 def _cell(text: str) -> Cell:
-    """A number, a text, or nothing: what was not measured is empty or nan."""
+    """A number, a text, or nothing: what was not measured is empty or nan. The id of a case is a text, though it may be all digits."""
+    if re.fullmatch("[0-9a-f]{12}", text):
+        return text
     try:
         return float(text) if text and not math.isnan(float(text)) else None
     except ValueError:
