@@ -165,7 +165,6 @@ class Check(EndToEndTest):
 
     def test_errors_of_the_file(self):
         self.assert_one_line_error(self.call("check", self.folder / "gone.toml"), 2, "there is no such file")
-        self.assert_one_line_error(self.call("check", self.write_campaign(), "--liggghts", "/nonexistent"), 3, "there is no file")
 
 
 if __name__ == "__main__":

@@ -250,7 +250,7 @@ class Researcher(EndToEndTest):
         self.assertGreater(outside["half_width"], easy["half_width"])
 
     def test_a_machine_is_designed_by_it(self):
-        answer = self.call("design", "--mass-flow", "1 t/h", *TROUGH, "--friction", "0.23", "--grain-diameter", "3 mm", "--machine-number", "8", "--surface",
+        answer = self.call("design", "--mass-flow", "0.7 t/h", *TROUGH, "--friction", "0.23", "--grain-diameter", "3 mm", "--machine-number", "8", "--surface",
                            self.output, "--at", "rolling_friction=0.02", "--model", "surface,point-mass", "--json")
         self.assertEqual(answer.returncode, 0, answer.stdout + answer.stderr)
         design = json.loads(answer.stdout)
