@@ -146,7 +146,8 @@ def check_atlas_against_predict():
         if row["efficiency"] is None:
             assert np.isnan(efficiency) and np.isnan(half_width) and np.isnan(speed) and not inside, row
         else:
-            assert (row["efficiency"], row["half_width"]) == (efficiency, half_width), (row, efficiency)
+            # pip builds with other flags, with which the sums over 271 layers round in another order: 5e-14 were seen.
+            assert np.allclose((row["efficiency"], row["half_width"]), (efficiency, half_width), rtol=0, atol=1e-11), (row, efficiency)
             # Tolerance: rounding, because the campaign has the frequency that belongs to the throw number.
             assert np.isclose(row["speed_m_per_s"], speed, rtol=1e-12), (row, speed)
     assert {row["efficiency"] is None for row in rows} == {row["inside"] for row in rows} == {True, False}
