@@ -179,11 +179,15 @@ void check_grains(scenario::Grains const& simulated, GivenGrains const& given) {
     if (given.diameter)
         check_material("grains.diameter", simulated.diameter, *given.diameter, same_size * simulated.diameter,
                        1e3, " mm");
-    if (given.rolling_friction)
-        check_material("grains.rolling_friction", simulated.rolling_friction, given.rolling_friction->mean,
-                       same_coefficient, 1, "");
-    if (given.friction)
-        check_material("grains.friction", simulated.friction, given.friction->mean, same_coefficient, 1, "");
+    // One that is not known exactly must be the simulated one at both ends of its central 95 %.
+    auto const check_ends = [](char const* key, double value, std::optional<Uncertain> const& material) {
+        for (double const deviations : {0.0, -1.96, 1.96})
+            if (material)
+                check_material(key, value, material->mean + deviations * material->sd, same_coefficient, 1,
+                               "");
+    };
+    check_ends("grains.rolling_friction", simulated.rolling_friction, given.rolling_friction);
+    check_ends("grains.friction", simulated.friction, given.friction);
 }
 
 /// The frictions on the trough at which the campaign simulated its layer.

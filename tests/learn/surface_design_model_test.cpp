@@ -122,6 +122,8 @@ TEST_F(SurfaceDesign, WhatWasNotSimulatedIsRefused) {
     refused({}, {normal_friction(0.9, 0.02)}, "trough.friction = 0.2 to 0.6 and the material has 0.9");
     refused({}, {usual, {.diameter = 0.01}}, "grains.diameter = 3 mm and the material has 10 mm");
     refused({}, {usual, {.rolling_friction = Uncertain{0.1}}}, "grains.rolling_friction = 0 and");
+    refused({}, {usual, {.friction = Uncertain{0.5, 0.1}}},
+            "grains.friction = 0.5 and the material has 0.304");
     refused({}, {usual, {.friction = Uncertain{0.3}}}, "grains.friction = 0.5 and the material has 0.3");
     EXPECT_NO_THROW(surface_design_model(surface, CampaignTrend(*maker, inputs, {}), {},
                                          {usual, {0.003, Uncertain{0}, Uncertain{0.5}}}, 0));
