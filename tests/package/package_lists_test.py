@@ -39,10 +39,10 @@ class PackageLists(unittest.TestCase):
 
     def test_the_list_of_the_tests_is_told_apart(self):
         """The negative control: all that the other lists must not have is found in this one."""
-        installed, wanted = installed_for("test")
+        installed, wanted = installed_for("all")
         self.assertLessEqual(wanted, installed)
         found = [one for one in installed if ONLY_FOR_TESTS.match(one)]
-        for service in ("slurmctld", "mariadb-server-core", "munge", "clang", "faketime", "valgrind", "emscripten", "firefox-esr"):
+        for service in ("slurmctld", "mariadb-server-core", "munge", "faketime", "valgrind", "emscripten", "firefox-esr"):
             self.assertTrue(any(one.startswith(service) for one in found), service)
 
 

@@ -3,7 +3,6 @@
 usage: style.py CHECK ROOT [ARGUMENT...]
 
 format          clang-format leaves every C++ file of src/ and tests/ as it is (.clang-format)
-tidy BUILD ROOM clang-tidy reports nothing for src/ROOM (.clang-tidy); BUILD holds compile_commands.json
 spelling        codespell finds no misspelt word in code and prose (.codespellrc)
 lint            pyflakes finds nothing in the Python files
 types CACHE     mypy finds nothing in the Python of postprocess/, validation/, tests/style/ and tests/architecture/ (.mypy.ini);
@@ -15,13 +14,10 @@ answer would differ.
 """
 
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterable
-
-from tidy import violations_of_room
 
 MOST_LINES = 400
 SKIPPED = 77
@@ -44,7 +40,7 @@ def tool(*names: str, version: str = "") -> str:
         path = shutil.which(name)
         if path and version in subprocess.run([path, "--version"], capture_output=True, text=True, check=False).stdout:
             return path
-    print(f"there is no {names[-1]}" + (f" of version {version}x" if version else "") + "; './setup packages test' lists what the tests need")
+    print(f"there is no {names[-1]}" + (f" of version {version}x" if version else "") + "; './setup packages all' lists what the tests need")
     sys.exit(SKIPPED)
 
 
@@ -57,12 +53,6 @@ def run(command: list[str], root: pathlib.Path, environment: dict[str, str] | No
 def check_format(root: pathlib.Path) -> list[str]:
     program = tool("clang-format-14", "clang-format", version=CLANG_VERSION)
     return run([program, "--dry-run", "--Werror", *map(str, files(root, ("src", "tests"), (".hpp", ".cpp")))], root)
-
-
-def check_tidy(root: pathlib.Path, build: str, room: str) -> list[str]:
-    program = tool("clang-tidy-14", "clang-tidy", version=CLANG_VERSION)
-    sources = [str(root / path) for path in files(root, (f"src/{room}",), (".cpp",))]
-    return violations_of_room(program, root, pathlib.Path(build), sources) if sources else [f"src/{room} has no sources"]
 
 
 def check_spelling(root: pathlib.Path) -> list[str]:
@@ -117,15 +107,14 @@ def check_length(root: pathlib.Path) -> list[str]:
     return [f"{path}: {lines} lines, at most {MOST_LINES} are allowed" for path, lines in lengths.items() if lines > MOST_LINES]
 
 
-CHECKS: dict[str, Callable[..., list[str]]] = {"format": check_format, "tidy": check_tidy, "spelling": check_spelling, "lint": check_lint, "types": check_types,
+CHECKS: dict[str, Callable[..., list[str]]] = {"format": check_format, "spelling": check_spelling, "lint": check_lint, "types": check_types,
                                                "length": check_length}
 
 
 def main() -> None:
     name, root = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     violations = CHECKS[name](root, *sys.argv[3:])
-    # clang-tidy counts what it suppressed in the headers of libraries; that is not a violation.
-    print("\n".join(line for line in violations if not re.match(r"\d+ warnings", line)) or f"{name}: no violation")
+    print("\n".join(violations) or f"{name}: no violation")
     sys.exit(1 if violations else 0)
 
 
