@@ -20,7 +20,7 @@ PAGE_HEAD = """# validation
 Each folder tests one claim: its page has the question, the source, the formula, the expected deviation and its reason, and the result. A *criterion* is ours
 and must hold; a *finding* is what somebody else states or what we predicted, and is borne out or not (undecided ones are not counted below). Each case also has
 a negative control, a run with a deliberate mistake that the criteria must detect. The [findings](findings.md) with their numbers, and the program and machine
-of each verdict, are on their own page. `vibrotrough validate --store` writes both pages; [how to make a case](../postprocess/README.md#how-to-add-a-validation-case).
+of each verdict, are on their own page; [`history`](history/README.md) has studies that are not repeated. `vibrotrough validate --store` writes both pages; [how to make a case](../postprocess/README.md#how-to-add-a-validation-case).
 
     vibrotrough validate               # all cases and their negative controls; cases with long simulations are judged from their stored tables
     vibrotrough validate NAME --long   # run the simulations of one case again, which takes minutes to an hour

@@ -96,7 +96,7 @@ OpenTrough open_trough(PreparedCase const& c) {
     open.box_start = -open.bin * std::ceil((excursion + 2 * grain) / open.bin);
     open.box_end = open.out_x + flight + fall * std::abs(std::sin(s.trough.inclination));
     // Sideways the margin was narrowest when a light grain of a mixture left the box
-    // (validation/fed_mixture).
+    // (validation/history).
     open.box_side = c.materials.size() > 1 ? flight : flight / 2;
     open.box_bottom = std::min(open.out_z, -near) - flight - fall;
     if (is_screen(s)) add_screen(open, c, fall);

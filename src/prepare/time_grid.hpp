@@ -60,7 +60,7 @@ double settling_time_step(scenario::Scenario const& scenario, StepLimits const& 
 /// The tangential force is min(c v, mu F). Damping and friction decay together during a landing, so its
 /// tangential impulse is the smaller of what Coulomb friction allows and what stops the slip. A tangential
 /// spring would return its energy instead. The price is that a block at rest under the acceleration a creeps
-/// with the speed a t_c / 10. See validation/rigid_block.
+/// with the speed a t_c / 10. See validation/history.
 ///
 /// A plate of several spheres has 1.5 times the critical damping (k = 11 m / t_c^2) and a normal force that
 /// may be attractive. A tilt then relaxes ten times as fast; a plate that leaves the trough tilted would spin

@@ -79,7 +79,7 @@ class Convergence(EndToEndTest):
         self.assertEqual(stiffness["setting"], "block_stiffness")
         self.assertEqual([one["value"] for one in stiffness["variations"]], [600, 1200])
         self.assertEqual({one["verdict"] for one in budget["settings"][1:]}, {"left-out"})
-        # A softer contact ends later; validation/rigid_block finds blocks within 0.007 of the theory.
+        # A softer contact ends later; validation/history finds blocks within 0.007 of the theory.
         self.assertLess(budget["numerical_error"], 0.02)
 
     def plan_ids(self, campaign):

@@ -82,7 +82,7 @@ class Block(EndToEndTest):
 
     def test_a_point_moves_as_the_theory_says(self):
         # Throw number 2 is where a contact that bounces or springs along the trough is up to 0.1 too fast; 0.0064 is the
-        # worst of the whole grid with this contact (validation/rigid_block).
+        # worst of the whole grid with this contact (validation/history).
         for row in self.run_blocks("point", sample([2.0, 0.8, 2.5], 3)):
             self.assertAlmostEqual(row["efficiency"], row["efficiency_theory"], delta=0.01, msg=str(row))
 

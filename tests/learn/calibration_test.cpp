@@ -183,7 +183,7 @@ TEST(Calibration, RostaIsNotIdentifiable) {
     EXPECT_THAT(verdict(c, {"the point mass"}).front(), testing::HasSubstr("cannot be tested"));
 }
 
-/// The finished cases of the simulated block with friction 0.18 (validation/rigid_block), as speeds known to
+/// The finished cases of the simulated block with friction 0.18 (validation/history), as speeds known to
 /// `uncertainty` in velocity efficiency.
 std::vector<MeasuredSpeed> wooden_block(double uncertainty) {
     std::string const file = std::string(VALIDATION_FOLDER) + "/rigid_block/result.csv";
@@ -202,7 +202,7 @@ std::vector<MeasuredSpeed> wooden_block(double uncertainty) {
 }
 
 // Sloot & Kruyt's wooden block with mu = 0.18. The simulated block differs from the theory by 0.0006 in the
-// median and 0.007 at most (validation/rigid_block), which moves the friction found by far less than 0.001.
+// median and 0.007 at most (validation/history), which moves the friction found by far less than 0.001.
 TEST(Calibration, FindsTheFrictionOfTheBlock) {
     auto const speeds = wooden_block(0.002);
     ASSERT_GT(speeds.size(), 20U);

@@ -295,7 +295,7 @@ class PageTest(PageCase):
         self.assertEqual(b.text("motion-text"), "There is no periodic motion to show.")
 
     def test_the_makers_rule_is_drawn_for_level_troughs(self):
-        """v = 3.81 N S (validation/daesung): proportional to the stroke, so that it is a straight line through the origin."""
+        """v = 3.81 N S (validation/history): proportional to the stroke, so that it is a straight line through the origin."""
         self.browser.wait("document.documentElement.dataset.complete === 'true'")
         path = "document.querySelector('#curve .line.rule').getAttribute('d')"
         points = [[float(part) for part in point.split()] for point in re.split("[ML]", self.browser.run(path))[1:]]

@@ -94,7 +94,7 @@ Exit codes:
   130  interrupted
 
 Example:
-  vibrotrough validate theory_table_1 rigid_block --verbose)");
+  vibrotrough validate theory_table_1 theory_exact --verbose)");
     command->callback([options, &exit_code] {
         exit_code = script_exit_code("validate.py", script_arguments(*options), options->python,
                                      {"numpy", "h5py", "matplotlib"});
