@@ -232,11 +232,8 @@ int run_program(std::string_view program_with_vtk, int argc, char** argv) {
         tell("vibrotrough: a file or a table is too large for the memory; remove or shorten it\n");
         return something_missing;
     } catch (std::exception const& error) {
-        // TBB has no type of its own for a thread that it cannot start.
-        bool const no_thread = std::string_view(error.what()).starts_with("pthread_create has failed");
-        tell("vibrotrough: {}{}\n", no_thread ? "" : "internal error: ",
-             no_thread ? "no further thread can be started: " + core::reason_of(EAGAIN) : error.what());
-        return no_thread ? something_missing : internal_error;
+        tell("vibrotrough: internal error: {}\n", error.what());
+        return internal_error;
     }
 }
 

@@ -23,15 +23,15 @@ bool is_range(std::string const& text, std::smatch& ends) {
            std::regex_match(text, ends, between_units);
 }
 
-/// What is wrong with a value.
-std::string problem_of(std::string const& text, core::QuantityError const& error) {
+/// What is wrong with the text of an option, and what to write, unless the error says that itself.
+[[noreturn]] void fail(std::string const& option, std::string const& text, core::QuantityError const& error,
+                       std::string const& advice) {
     std::smatch ends;
-    return is_range(text, ends) ? "is a range, and here one value is needed" : error.what();
-}
-
-/// The problem with what to write, unless it says that itself.
-std::string with_advice(std::string const& problem, std::string const& advice) {
-    return problem.find("; write ") == problem.npos ? fmt::format("{}; {}", problem, advice) : problem;
+    bool const is_whole_range = is_range(text, ends);
+    throw core::InputError(
+        fmt::format("{} {}: {}; {}", option, text,
+                    is_whole_range ? "is a range, and here one value is needed" : error.problem(),
+                    is_whole_range || error.advice().empty() ? advice : error.advice()));
 }
 
 /// Of a plain number that is out of its range, which slip would explain it.
@@ -47,11 +47,8 @@ double read_quantity(std::string const& option, std::string const& text, std::st
     try {
         return core::parse_quantity(text, unit);
     } catch (core::QuantityError const& error) {
-        throw core::InputError(fmt::format(
-            "{} {}: {}", option, text,
-            with_advice(
-                problem_of(text, error),
-                fmt::format("write a number with its unit, for example {} \"{}\"", option, example))));
+        fail(option, text, error,
+             fmt::format("write a number with its unit, for example {} \"{}\"", option, example));
     }
 }
 
@@ -74,9 +71,7 @@ double read_number(std::string const& option, std::string const& text, std::stri
     try {
         return core::parse_number(text);
     } catch (core::QuantityError const& error) {
-        throw core::InputError(fmt::format(
-            "{} {}: {}", option, text,
-            with_advice(problem_of(text, error), fmt::format("write for example {} {}", option, example))));
+        fail(option, text, error, fmt::format("write for example {} {}", option, example));
     }
 }
 
