@@ -84,6 +84,38 @@ void RunOptions::add_to(CLI::App& command) {
     add_allow_extra(command, allow_extra);
 }
 
+void StudyOptions::add_to(CLI::App& command) {
+    add_results_folder(command, output);
+    command.add_option("--jobs", jobs, "Engines that run at a time")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    add_engine(command, engine);
+    command.add_flag("--accept-failed-probes", accept_failed_probes, accept_failed_probes_help);
+    add_allow_extra(command, allow_extra);
+}
+
+fs::path results_folder(std::string const& output, std::string const& name) {
+    return output.empty() ? fs::path("runs") / name : fs::path(output);
+}
+
+engine::Engine engine_at(std::string const& path) {
+    return engine::find_engine(path.empty() ? std::nullopt : std::optional<fs::path>(path));
+}
+
+campaign::Summary run_study(StudyOptions const& options, engine::Engine const& engine, campaign::Plan& plan,
+                            fs::path const& file, scenario::RunSettings const& settings) {
+    campaign::Summary summary;
+    {
+        ProgressPrinter printer;
+        summary =
+            campaign::run_campaign(plan, file, *campaign::make_policy(), campaign::executor_kind("local"),
+                                   {plan.folder, engine, settings, options.jobs, {}, {options.allow_extra}},
+                                   campaign::Until::done, printer);
+    }
+    campaign::write_campaign_file(plan);
+    return summary;
+}
+
 std::unique_ptr<campaign::Observer> RunOptions::make_observer() const {
     if (quiet || progress == "none") return std::make_unique<NoProgress>();
     if (progress == "json") return std::make_unique<JsonProgress>();
@@ -95,11 +127,8 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     check_setup(options, campaign.run);
     check_extra_lines(options.campaign_file, campaign.cases, options.allow_extra);
     use_templates(options.templates, campaign.cases);
-    std::optional<fs::path> const program =
-        options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
-    engine::Engine engine = engine::find_engine(program);
-    fs::path const folder =
-        options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
+    engine::Engine engine = engine_at(options.engine);
+    fs::path const folder = results_folder(options.output, campaign.name);
     core::make_folder(folder);
     {
         // Fail now, before anything else is done, if the disk is full or another driver works in the folder.
@@ -114,6 +143,20 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     inputs.foreign_commands = {options.allow_extra,
                                options.templates.empty() ? nullptr : campaign.cases.front().engine.templates};
     return {std::move(campaign), std::move(plan), &kind, inputs, is_interrupted};
+}
+
+campaign::Summary drive_campaign(RunOptions const& options, ReadyCampaign& ready,
+                                 campaign::Policy const& policy, campaign::Until until,
+                                 campaign::ExecutorKind const& kind) {
+    campaign::Summary summary;
+    {
+        auto const shown = options.make_observer();
+        LoggingObserver observer(*shown, ready.plan.folder);
+        summary = campaign::run_campaign(ready.plan, options.campaign_file, policy, kind, ready.inputs, until,
+                                         observer);
+    }
+    campaign::write_campaign_file(ready.plan);
+    return summary;
 }
 
 void size_tasks(ReadyCampaign& ready, std::optional<int> minutes) {

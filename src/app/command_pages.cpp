@@ -1,7 +1,6 @@
 #include "app/command_pages.hpp"
 
-#include "core/text.hpp"
-#include "core/version.hpp"
+#include "app/exit_code.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -76,45 +75,6 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
     return text;
 }
 
-/// Text for man(7): a backslash, a hyphen that is to be copied, and a line that begins like a request.
-std::string as_roff(std::string const& text) {
-    std::string escaped = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
-    std::string result;
-    std::istringstream lines(escaped);
-    for (std::string line; std::getline(lines, line);) {
-        if (!line.empty() && (line.front() == '.' || line.front() == '\'')) line.insert(0, "\\&");
-        result += line + "\n";
-    }
-    return result;
-}
-
-/// A footer: paragraphs, and indented lines (examples) as they are.
-std::string footer_as_roff(std::string const& footer) {
-    std::string result;
-    std::istringstream lines(footer);
-    bool is_example = false;
-    for (std::string line; std::getline(lines, line);) {
-        bool const is_indented = line.starts_with(" ");
-        if (is_indented != is_example && !line.empty()) {
-            result += is_indented ? ".nf\n" : ".fi\n";
-            is_example = is_indented;
-        }
-        result += line.empty() ? ".PP\n" : as_roff(line);
-    }
-    return result + (is_example ? ".fi\n" : "");
-}
-
-std::string options_as_roff(CLI::App const& app) {
-    std::string text;
-    for (CLI::Option const* const option : options_of(app)) {
-        std::vector<std::string> const names = spellings(*option);
-        std::string name = names.empty() ? option->get_name(true) : fmt::format("{}", fmt::join(names, ", "));
-        if (option->get_type_size() != 0 && !names.empty()) name += " " + option->get_type_name();
-        text += fmt::format(".TP\n.B {}{}", as_roff(name), as_roff(summary_of(option->get_description())));
-    }
-    return text;
-}
-
 /// Text for a cell of a Markdown table.
 std::string as_cell(std::string text) {
     for (std::string_view const mark : {"|", "*", "<", "["})
@@ -174,45 +134,6 @@ complete -F _vibrotrough vibrotrough
                        cases);
 }
 
-std::string manual_page(CLI::App const& program) {
-    std::string text = fmt::format(
-        ".TH VIBROTROUGH 1 \"\" \"vibrotrough {}\" \"User Commands\"\n.SH NAME\nvibrotrough \\- conveying "
-        "speed of "
-        "granular layers on vibrating troughs\n.SH SYNOPSIS\n.B vibrotrough\n.I COMMAND\n[options]\n"
-        ".SH DESCRIPTION\n{}",
-        core::program_version(), as_roff(summary_of(program.get_description()) + "."));
-    text += ".SH COMMANDS\n";
-    for (Command const& command : commands_of(program)) {
-        if (command.words.empty()) continue;
-        text += fmt::format(".SS vibrotrough {}\n{}{}.PP\n{}", fmt::join(command.words, " "),
-                            as_roff(summary_of(command.app->get_description()) + "."),
-                            options_as_roff(*command.app), footer_as_roff(command.app->get_footer()));
-    }
-    return text + R"(.SH EXIT STATUS
-.TP
-.B 0
-Everything succeeded.
-.TP
-.B 1
-Some cases failed, or were not precise, not steady, or bistable or slow; the rest are finished and kept.
-.TP
-.B 2
-The input is wrong.
-.TP
-.B 3
-Something is missing: the engine, disk space, or the permission to write.
-.TP
-.B 70
-An error in the program; please report it.
-.TP
-.B 130
-Interrupted.
-.SH SEE ALSO
-.BR liggghts (1),
-.BR paraview (1)
-)";
-}
-
 std::string command_reference(CLI::App const& program) {
     std::string contents, sections;
     for (Command const& command : commands_of(program)) {
@@ -227,8 +148,9 @@ std::string command_reference(CLI::App const& program) {
         if (!footer.empty()) sections += "\n```text\n" + footer + "\n```\n";
     }
     return "# All commands\n\nPrinted by `vibrotrough manual --markdown`; `vibrotrough COMMAND --help` shows "
-           "the same for one command.\n\n| command | what it does |\n|---|---|\n" +
-           contents + sections;
+           "the same for one command.\n\n```text\n" +
+           std::string(exit_codes_help) + "\n```\n\n| command | what it does |\n|---|---|\n" + contents +
+           sections;
 }
 
 }  // namespace vibrotrough::app

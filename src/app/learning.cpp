@@ -1,6 +1,6 @@
 #include "app/learning.hpp"
 
-#include "app/commands/theory/options.hpp"
+#include "app/commands/option_table.hpp"
 #include "app/progress_log.hpp"
 #include "app/standard_streams.hpp"
 #include "campaign/schedule/until_precise.hpp"
@@ -29,19 +29,10 @@ bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::str
     for (campaign::PlannedCase const& planned : ready.plan.cases)
         wanted.emplace(planned.id, planned.scenario().measure.half_width);
     learn::write_wanted_half_widths(ready.plan.folder, wanted);
-    {
-        auto const shown = options.make_observer();
-        LoggingObserver observer(*shown, ready.plan.folder);
-        campaign::Summary const summary =
-            campaign::run_campaign(ready.plan, options.campaign_file, campaign::UntilPrecise(wanted),
-                                   *ready.kind, ready.inputs, campaign::Until::done, observer);
-        if (summary.interrupted) {
-            tell("interrupted; the same command continues it\n");
-            return false;
-        }
-    }
-    campaign::write_campaign_file(ready.plan);
-    return true;
+    campaign::Summary const summary =
+        drive_campaign(options, ready, campaign::UntilPrecise(wanted), campaign::Until::done, *ready.kind);
+    if (summary.interrupted) tell("interrupted; the same command continues it\n");
+    return !summary.interrupted;
 }
 
 void tell_of_other_layers(int count) {

@@ -9,7 +9,6 @@
 #include "app/with_vtk.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
-#include "core/nearest.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -115,66 +114,23 @@ explains a command. Example:
     add_theory_calibrate(*theory, exit_code);
 }
 
-/// Names of the commands of a command.
-std::vector<std::string_view> commands_below(CLI::App const& command) {
-    std::vector<std::string_view> names;
-    for (CLI::App const* one : command.get_subcommands([](CLI::App const*) { return true; }))
-        names.push_back(one->get_name());
-    return names;
-}
-
-/// The option of a command that is spelt nearly as one that it does not have. Empty when none is.
-std::string option_meant(CLI::App const& command, std::string const& given) {
-    std::vector<std::string_view> names;
-    for (CLI::Option const* one : command.get_options())
-        for (std::string const& name : one->get_lnames()) names.emplace_back(name);
-    std::string word =
-        given.substr(given.find_first_not_of('-'), given.find('=') - given.find_first_not_of('-'));
-    std::string_view const meant = core::nearest_word(word, names);
-    return meant.empty() ? "" : fmt::format("--{}", meant);
-}
-
-/// The words that a command does not know, in the order in which they were written. CLI11 turns it round.
-/// @param path  the command with the program's name, which run_program() says by itself
-std::string unknown_words(CLI::App const& command, std::string const& path, int argc, char** argv) {
-    std::string const name = path.substr(path.find(' ') + 1);
-    std::vector<std::string> rest = command.remaining();
-    std::string said, meant;
-    for (int i = 1; i < argc; ++i) {
-        std::string const word = argv[i];
-        auto const unknown = std::ranges::find(rest, word);
-        if (unknown == rest.end()) continue;
-        rest.erase(unknown);
-        said += " " + word;
-        bool const is_option = word.starts_with("-") && word.find_first_not_of("-.0123456789") != word.npos;
-        if (is_option && meant.empty()) meant = option_meant(command, word);
-    }
-    if (!meant.empty()) return fmt::format("{} does not know{}; did you mean {}?", name, said, meant);
-    return fmt::format("{} does not know{}; see '{} --help'", name, said, path);
-}
-
-/// One line for an error of the command line. CLI11 itself prints two lines, and does not name a misspelt
-/// command.
+/// One line for an error of the command line: CLI11 itself prints two, and does not name a misspelt command.
 std::string describe(CLI::ParseError const& error, CLI::App const& program, int argc, char** argv) {
     CLI::App const* command = &program;
     std::string path = "vibrotrough", problem = error.what();
     for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+        auto const commands = command->get_subcommands([](CLI::App const*) { return true; });
+        if (commands.empty()) break;
         std::string const word = argv[i];
         auto const named =
-            command->get_subcommands([&](CLI::App const* one) { return one->get_name() == word; });
-        if (named.empty()) {
-            auto const commands = commands_below(*command);
-            if (commands.empty()) break;
-            std::string_view const nearest = core::nearest_word(word, commands);
+            std::ranges::find(commands, word, [](CLI::App const* one) { return one->get_name(); });
+        if (named == commands.end()) {
             problem = fmt::format("there is no command '{}'", word);
-            if (!nearest.empty()) return fmt::format("{}; did you mean '{} {}'?", problem, path, nearest);
             break;
         }
-        command = named.front();
+        command = *named;
         path += " " + word;
     }
-    bool const is_extra = dynamic_cast<CLI::ExtrasError const*>(&error) != nullptr;
-    if (is_extra && commands_below(*command).empty()) return unknown_words(*command, path, argc, argv);
     return fmt::format("{}; see '{} --help'", problem, path);
 }
 
@@ -182,7 +138,8 @@ int run(int argc, char** argv) {
     CLI::App program{tasks};
     program.name("vibrotrough");
     program.formatter(std::make_shared<HelpFormatter>());
-    program.footer("'vibrotrough COMMAND --help' explains a command and gives an example.");
+    program.footer("'vibrotrough COMMAND --help' explains a command and gives an example.\n\n" +
+                   std::string(exit_codes_help));
     program.set_version_flag("--version", version_text,
                              "Print version, commit, libraries and engine, and exit");
     program.require_subcommand(1);
@@ -232,11 +189,8 @@ int run_program(std::string_view program_with_vtk, int argc, char** argv) {
         tell("vibrotrough: a file or a table is too large for the memory; remove or shorten it\n");
         return something_missing;
     } catch (std::exception const& error) {
-        // TBB has no type of its own for a thread that it cannot start.
-        bool const no_thread = std::string_view(error.what()).starts_with("pthread_create has failed");
-        tell("vibrotrough: {}{}\n", no_thread ? "" : "internal error: ",
-             no_thread ? "no further thread can be started: " + core::reason_of(EAGAIN) : error.what());
-        return no_thread ? something_missing : internal_error;
+        tell("vibrotrough: internal error: {}\n", error.what());
+        return internal_error;
     }
 }
 

@@ -96,7 +96,7 @@ bool is_swept(Column const& column, scenario::SweptKeys const& swept) {
 }
 
 std::optional<Value> swept_value(scenario::Scenario const& scenario, Key const& key) {
-    auto const value = key.access.get(scenario);
+    auto const value = key.get(scenario);
     if (!value) return {};
     if (auto const word = scenario::word_of(scenario, key.path)) return *word;
     auto const* const number = std::get_if<double>(&*value);

@@ -103,10 +103,8 @@ void check_unit_text(std::string_view text) {
 void check_ton(std::string_view text) {
     static std::regex const ton(R"((^|[^A-Za-z_])tons?($|[^A-Za-z_]))", std::regex::icase);
     if (!std::regex_search(std::string(text), ton)) return;
-    throw QuantityError(
-        fmt::format("'{}' can mean three masses; write t for metric tonnes (1000 kg), short_ton (907 kg) or "
-                    "long_ton (1016 kg)",
-                    text));
+    throw QuantityError(fmt::format("'{}' can mean three masses", text),
+                        "write t for metric tonnes (1000 kg), short_ton (907 kg) or long_ton (1016 kg)");
 }
 
 /// A frequency counts cycles, and a turn of the shaft is one cycle of the drive: "rpm" becomes "1/minute" and
@@ -135,12 +133,13 @@ struct NumberAndRest {
 };
 
 /// What is said of "9,7 mm". Three digits behind the comma, as in "1,000 mm", may be thousands as well.
-std::string comma_problem(std::string const& text, std::smatch const& parts) {
+QuantityError comma_error(std::string const& text, std::smatch const& parts) {
     std::string const point =
         fmt::format("write {}.{}{} with a point", parts[1].str(), parts[2].str(), parts[3].str());
-    if (parts[2].length() != 3) return fmt::format("'{}' has a decimal comma; {}", text, point);
-    return fmt::format("'{}' has a comma; {}, or {}{}{} if thousands are meant", text, point, parts[1].str(),
-                       parts[2].str(), parts[3].str());
+    if (parts[2].length() != 3) return QuantityError(fmt::format("'{}' has a decimal comma", text), point);
+    return QuantityError(fmt::format("'{}' has a comma", text),
+                         fmt::format("{}, or {}{}{} if thousands are meant", point, parts[1].str(),
+                                     parts[2].str(), parts[3].str()));
 }
 
 /// @param problem  what is wrong with a text that does not begin with a number
@@ -154,7 +153,7 @@ NumberAndRest split_number(std::string_view whole, char const* problem) {
         throw QuantityError(fmt::format("'{}' {}", whole, problem));
     std::string const owned(whole.substr(0, 100));
     std::smatch parts;
-    if (std::regex_match(owned, parts, decimal_comma)) throw QuantityError(comma_problem(owned, parts));
+    if (std::regex_match(owned, parts, decimal_comma)) throw comma_error(owned, parts);
     return {number, trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())))};
 }
 
@@ -190,11 +189,9 @@ double parse_quantity(std::string_view text, std::string const& unit) {
     // In udunits2 a radian is the number 1. Without this check "rad/s" would become a frequency that is wrong
     // by 2 pi, and "5 %" would become an angle.
     if (is_angular(from.get()) != is_angular(to.get())) {
-        throw QuantityError(
-            is_angular(to.get())
-                ? fmt::format("'{}' is not a unit of angle", rest)
-                : fmt::format("'{}' contains an angle, {} does not; write 340 turns per minute as 340 rpm",
-                              rest, unit));
+        if (is_angular(to.get())) throw QuantityError(fmt::format("'{}' is not a unit of angle", rest));
+        throw QuantityError(fmt::format("'{}' contains an angle, {} does not", rest, unit),
+                            "write 340 turns per minute as 340 rpm");
     }
     std::unique_ptr<cv_converter, FreeConverter> const converter(ut_get_converter(from.get(), to.get()));
     double const result = cv_convert_double(converter.get(), number) + 0.0;  // "-0 deg" is 0

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace vibrotrough::core {
 
@@ -10,7 +11,17 @@ namespace vibrotrough::core {
 /// them.
 class QuantityError : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    /// @param problem  what is wrong with the text
+    /// @param advice   what to write instead; empty when the caller, who knows the key, says it better
+    explicit QuantityError(std::string problem, std::string advice = "")
+        : std::runtime_error(advice.empty() ? problem : problem + "; " + advice),
+          problem_(std::move(problem)),
+          advice_(std::move(advice)) {}
+    std::string const& problem() const { return problem_; }  ///< What is wrong.
+    std::string const& advice() const { return advice_; }    ///< What to write instead, or nothing.
+
+  private:
+    std::string problem_, advice_;
 };
 
 /// Reads a number with a unit, such as "6 mm", and converts it to `unit` with udunits2.

@@ -18,7 +18,7 @@ double value_at(scenario::Key const& key, theory::Drive const& drive) {
     machine.trough.vibration_angle = drive.vibration_angle;
     machine.trough.amplitude = drive.amplitude;
     machine.trough.frequency = drive.frequency;
-    return std::get<double>(*key.access.get(machine));
+    return std::get<double>(*key.get(machine));
 }
 
 }  // namespace vibrotrough::learn

@@ -113,7 +113,7 @@ class Package(Unpacked):
         page = self.root / "usr/share/man/man1/vibrotrough.1"
         shown = call("groff", "-man", "-ww", "-Tutf8", "-P-cbou", "-rLL=100n", page)
         self.assertEqual((shown.returncode, shown.stderr), (0, ""))
-        for words in ("vibrotrough run", "vibrotrough theory point", "--half-width", "EXIT STATUS"):
+        for words in ("vibrotrough tutorial depth", "compare", "--version", "Exit codes"):
             self.assertIn(words, shown.stdout.replace("\u2010", "-").replace("\u2212", "-"))
 
     def complete(self, *words):

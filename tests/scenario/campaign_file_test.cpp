@@ -252,29 +252,6 @@ TEST(CampaignFile, SeveralMistakesAreToldAtOnce) {
     }
 }
 
-// What is not even TOML is named as what people meant by it, and hides no other mistake.
-TEST(CampaignFile, NumbersThatAreNotTomlAreNamed) {
-    std::string text = with("throw_number = 2.0", "throw_number = 2,5");
-    text = std::regex_replace(text, std::regex("height = \"12 mm\""), "height = 12 mm   # deep");
-    text = std::regex_replace(text, std::regex("length = \"36 mm\""), "length = 36,5 mm");
-    text += "[engin]\ncontact = \"hooke\"\n";
-    try {
-        scenario::parse_campaign(text, "c.toml");
-        FAIL() << "accepted";
-    } catch (core::InputError const& error) {
-        ASSERT_EQ(error.problems().size(), 4u) << error.what();
-        for (char const* told :
-             {"throw_number: '2,5' has a decimal comma; write throw_number = 2.5",
-              "height: '12 mm' is a text without quotes; write height = \"12 mm\"",
-              "length: '36,5 mm' has a decimal comma; write length = \"36.5 mm\"", "engin: unknown section"})
-            EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << told << "\n"
-                                                                               << error.what();
-    }
-    // A heading or a list that cannot be read ends the reading: what follows would be misunderstood.
-    EXPECT_NE(error_of(with("[trough]", "[trough")).find("TOML"), std::string::npos);
-    EXPECT_NE(error_of(with("throw_number = 2.0", "throw_number = = 2")).find("TOML"), std::string::npos);
-}
-
 // A percentage is a number, as on the command line; other texts are not.
 TEST(CampaignFile, PercentagesAreNumbers) {
     std::string const plain = with("throw_number = 2.0", "throw_number = 2.0");

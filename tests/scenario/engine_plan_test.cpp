@@ -71,10 +71,6 @@ TEST(EnginePlan, MistakesAreNamed) {
         EXPECT_THAT(error_of("templates = [\"" + std::string(name) + "\"]\n"),
                     HasSubstr("name of a template"));
     EXPECT_THAT(error_of("templates = [\"contact.mustache\", \"contact.mustache\"]\n"), HasSubstr("twice"));
-    std::string const block =
-        with("height = \"12 mm\"", "block = \"point\"", with("diameter_spread = 0.1", ""));
-    EXPECT_THAT(error_of("contact = \"hooke\"\n", known_files, block), HasSubstr("contact of its own"));
-    EXPECT_THAT(error_of("cohesion = \"1 J/m3\"\n", known_files, block), HasSubstr("contact of its own"));
 }
 
 }  // namespace

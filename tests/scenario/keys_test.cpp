@@ -43,7 +43,9 @@ TEST(Keys, ExamplesAreInRange) {
 // A row says where its value is: in a case or among the settings of a run, never in both.
 TEST(Keys, EveryRowHasItsPlace) {
     for (scenario::Key const& key : scenario::all_keys()) {
-        EXPECT_TRUE(key.access.get != nullptr && key.access.set != nullptr) << key.path;
+        EXPECT_TRUE((key.access.get != nullptr && key.access.set != nullptr) ||
+                    (key.access.get_entry != nullptr && key.access.set_entry != nullptr))
+            << key.path;
         EXPECT_TRUE(key.access.set_run == nullptr) << key.path;
     }
     for (scenario::Key const& key : scenario::run_keys()) {
@@ -80,7 +82,7 @@ TEST(Keys, WhatIsSetIsGot) {
         if (key.path == "feed.length" || key.path == "feed.width" || key.path == "feed.height")
             point += "\"feed.mass_flow\" = \"0.2 t/h\"\n";
         scenario::Scenario const s = scenario::parse_campaign(base + point, "c.toml").cases.front();
-        scenario::Content const got = *key.access.get(s);
+        scenario::Content const got = *key.get(s);
         if (has_words(key)) {
             EXPECT_EQ('"' + std::get<std::string>(got) + '"', key.example) << key.path;
             continue;
@@ -98,7 +100,7 @@ TEST(Keys, WhatIsSetIsGot) {
 TEST(Keys, WordsBeginWithTheirDefault) {
     for (scenario::Key const& key : scenario::all_keys()) {
         if (!has_words(key) || !key.group.empty()) continue;
-        auto const value = key.access.get(scenario::Scenario{});
+        auto const value = key.get(scenario::Scenario{});
         EXPECT_EQ(value ? std::get<std::string>(*value) : "none", default_text(key)) << key.path;
     }
 }

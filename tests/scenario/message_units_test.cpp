@@ -67,7 +67,7 @@ TEST(MessageUnits, ARangeHasThemAndNamesTheSlip) {
                       HasSubstr("in the range -0.785398 to 0.785398 rad")));
     EXPECT_THAT(error_of(with("amplitude = \"6 mm\"", "stroke = \"9.7 m\"")),
                 AllOf(HasSubstr("trough.stroke: '9.7 m' is out of range (were 9.7 mm meant?)"),
-                      HasSubstr("in the range 2 um to 2 m")));
+                      HasSubstr("in the range 2e-06 to 2 m")));
     EXPECT_THAT(error_of(with("throw_number = 2.0", "frequency = \"0.1 rpm\"")),
                 AllOf(HasSubstr("'0.1 rpm' is out of range (were 0.1 Hz meant?)"),
                       HasSubstr("in the range 0.6 to 600000 rpm")));

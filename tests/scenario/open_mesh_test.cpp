@@ -86,13 +86,12 @@ TEST(OpenMesh, TheLevelHasTheVolumeBelowIt) {
 }
 
 TEST(OpenMesh, WhatItLacksIsNamed) {
-    EXPECT_THAT(refusal(slope(0, 0), open_mesh::campaign("")), HasSubstr("an open trough needs side walls"));
-    EXPECT_THAT(refusal(vee(), open_mesh::campaign("")), HasSubstr("an open trough needs side walls"));
+    EXPECT_THAT(refusal(slope(0, 0), open_mesh::campaign("")), HasSubstr("needs trough.side_wall_friction"));
+    EXPECT_THAT(refusal(vee(), open_mesh::campaign("")), HasSubstr("needs trough.side_wall_friction"));
     std::vector<Triangle> channel = slope(0, 0);
     add_walls(channel, 15);
     EXPECT_EQ(refusal(channel, open_mesh::campaign("")), "no error");
-    EXPECT_THAT(refusal(channel), HasSubstr("trough.side_wall_friction: is given together with a mesh that "
-                                            "has walls of its own"));
+    EXPECT_THAT(refusal(channel), HasSubstr("trough.side_wall_friction: does not go with trough.mesh"));
     // Shorter or longer than the trough.
     for (char const* const length : {"190 mm", "210 mm"})
         EXPECT_THAT(refusal(slope(0, 0), with("200 mm", length, open_mesh::campaign())),

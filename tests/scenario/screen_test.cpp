@@ -37,13 +37,6 @@ TEST(Screen, HolesAreNotCutByTheBox) {
                 HasSubstr("screen.wire: 0.1 mm is less than a twentieth of the opening"));
 }
 
-TEST(Screen, NeedsAllItsKeys) {
-    EXPECT_THAT(error_of(screened("opening = \"5 mm\"\nwire = \"1 mm\"\n")),
-                HasSubstr("screen.time is missing"));
-    EXPECT_THAT(error_of(screened("wire = \"1 mm\"\ntime = \"2 s\"\n")),
-                HasSubstr("screen.wire: there is no screen"));
-}
-
 std::string fed_screen(std::string const& screen, std::string const& length = "60 mm") {
     std::string const base = with("length = \"36 mm\"", "length = \"" + length + "\"",
                                   with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0",
@@ -66,27 +59,11 @@ TEST(Screen, MayBeFed) {
     EXPECT_EQ(holes_along(single_case(fed_screen("opening = \"0 mm\"\nwire = \"1 mm\"\n"))), 0);
 }
 
-TEST(Screen, OnlyABatchHasATime) {
-    std::string const holes = "opening = \"5 mm\"\nwire = \"1 mm\"\n";
-    EXPECT_THAT(error_of(fed_screen(holes + "time = \"2 s\"\n")), HasSubstr("screen.time: grains are fed"));
+TEST(Screen, AFedOneHasRoomForHoles) {
     EXPECT_THAT(error_of(fed_screen("opening = \"5 mm\"\nwire = \"1.1 mm\"\n")),
                 HasSubstr("a side wall would cut through holes"));
     EXPECT_THAT(error_of(fed_screen("opening = \"17 mm\"\nwire = \"1 mm\"\n", "36 mm")),
                 HasSubstr("there is no room for a hole"));
-}
-
-// What does not go together is refused by its name.
-TEST(Screen, RefusesWhatItCannotHave) {
-    std::string const whole = "opening = \"5 mm\"\nwire = \"1 mm\"\ntime = \"2 s\"\n";
-    std::string const plain = with("max_cycles = 200", "");
-    EXPECT_THAT(error_of(screened(whole, example_campaign)),
-                HasSubstr("measure.max_cycles: how long a run is"));
-    EXPECT_THAT(error_of(screened(
-                    whole, with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0", plain))),
-                HasSubstr("trough.side_wall_friction: "));
-    EXPECT_THAT(error_of(screened(whole) + "\n[[materials]]\nname = \"fines\"\nmass_fraction = 0.2\n"),
-                HasSubstr("materials.1.name: "));
-    EXPECT_THAT(error_of(screened(whole) + "\n[[stages]]\ncycles = 20\n"), HasSubstr("stages.1.cycles: "));
 }
 
 }  // namespace

@@ -326,7 +326,7 @@ TEST_F(MeshCampaign, MistakesAreNamed) {
     EXPECT_THAT(error(on_mesh(with("restitution = 0.5", "restitution = 0.5\nmesh_unit = \"m\""))),
                 HasSubstr("is mesh_unit wrong?"));
     EXPECT_THAT(error(on_mesh(with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0.1"))),
-                HasSubstr("is given together with a mesh"));
+                HasSubstr("does not go with trough.mesh"));
     EXPECT_THAT(error(on_mesh(with("height = \"12 mm\"", "block = \"point\""))),
                 HasSubstr("a block needs the flat floor"));
     EXPECT_THAT(error(with("[grains]", "mesh = \"no.stl\"\n\n[grains]")), HasSubstr("there is no file"));
@@ -335,7 +335,7 @@ TEST_F(MeshCampaign, MistakesAreNamed) {
     EXPECT_THAT(error(with("[grains]", "mesh = []\n\n[grains]")),
                 HasSubstr("trough.mesh: is not a list of 1 to 30 texts"));
     EXPECT_THAT(error(with("[grains]", "mesh_unit = \"m\"\n\n[grains]")),
-                HasSubstr("trough.mesh_unit: is the unit of a mesh, and trough.mesh is not given"));
+                HasSubstr("trough.mesh_unit: needs trough.mesh"));
     std::vector<Triangle> slope;
     add_rectangle(slope, {0, 0, 0}, {36, 0, 2}, {36, 18, 2}, {0, 18, 0});
     write("vee.stl", slope);

@@ -61,7 +61,7 @@ TEST(TheoryPoint, WarnsOfUnusualNumbers) {
         {"--frequency \"960 Hz\" --amplitude \"4 mm\" --friction 0.3",
          "were 960 turns per minute meant (rpm)?"},
         {"--rpm 16 --amplitude \"4 mm\" --friction 0.3", "were 16 Hz meant, not rpm?"},
-        {"--rpm 960 --stroke \"9.7 m\" --friction 0.3", "were mm meant, not m?"},
+        {"--rpm 960 --stroke \"9.7 m\" --friction 0.3", "were 9.7 mm meant?"},
         {"--rpm 960 --amplitude \"9.7 mm\" --friction 0.3", "was the stroke given as the amplitude"},
         {"--throw-number 2 --friction 30", "an angle of friction meant (its tangent is 0.577)"},
     };
@@ -85,31 +85,14 @@ TEST(TheoryPoint, AllCommandsWarnOfUnusualNumbers) {
         {design + "--friction 0.3 --vibration-angle '0.5 deg'", "were radians meant (28.6 degrees)?"},
         {"design --mass-flow '12 t/h' --bulk-density '0.6 kg/m3' --width '300 mm' --friction 0.3",
          "were 0.6 t/m3 meant (600 kg/m3)?"},
-        {"theory design --friction 0.3 --stroke '9.7 m'", "were mm meant, not m?"},
         {layer + "--friction 0.3 --bulk-density '0.6 kg/m3'", "were 0.6 t/m3 meant (600 kg/m3)?"},
         {layer + "--friction 0.3 --frequency '16 Hz'", "both given"},
-        {"theory point --frequency '960 kHz' --stroke '12 mm' --vibration-angle '30 deg' --friction 0.3",
-         "a frequency of 960000 Hz is unusual"},
     };
     for (auto const& [command, told] : slips)
         EXPECT_NE(run_program(command).text.find(told), std::string::npos) << command << "\n"
                                                                            << run_program(command).text;
     Answer const usual = run_program(design + "--friction 0.3 --rpm 960 --stroke '9.7 mm'");
     EXPECT_EQ(usual.text.find("warning"), std::string::npos) << usual.text;
-}
-
-// A slip is named only where it leads to a usual number.
-TEST(TheoryPoint, ASlipThatExplainsNothingIsNotNamed) {
-    for (char const* const options :
-         {"--rpm 960 --stroke '9.7 mm' --friction 0.3 --vibration-angle '1e-9 deg'",
-          "--frequency '1e-9 Hz' --stroke '9.7 mm' --friction 0.3 --vibration-angle '30 deg'",
-          "--frequency '960 kHz' --stroke '9.7 mm' --friction 0.3 --vibration-angle '30 deg'",
-          "--rpm 960 --stroke '9.7 mm' --friction 0.3 --vibration-angle '30 deg' --bulk-density '1e-9 "
-          "kg/m3'"}) {
-        std::string const text = run_program(std::string("theory point ") + options).text;
-        EXPECT_NE(text.find("unusual"), std::string::npos) << options << "\n" << text;
-        EXPECT_EQ(text.find("meant"), std::string::npos) << options << "\n" << text;
-    }
 }
 
 // Errors of `design` speak of what was typed, in its unit, and name the slip.
@@ -121,13 +104,13 @@ TEST(Design, AnswersInTheUnitThatWasTyped) {
         EXPECT_EQ(answer.exit_code, 2) << options;
         EXPECT_NE(answer.text.find(words), std::string::npos) << options << "\n" << answer.text;
     };
-    refused("--inclination '95 deg'", "--inclination 95 deg: must lie between -90 and 90 deg;");
+    refused("--inclination '95 deg'", "--inclination 95 deg: must lie between -45 and 45 deg;");
     refused("--inclination '2 rad'",
-            "--inclination 2 rad: must lie between -1.5708 and 1.5708 rad (were 2 deg meant?)");
-    refused("--inclination '1.2 rad'", "--inclination 1.2 rad: must lie between -0.277639 and 0.277639 rad");
+            "--inclination 2 rad: must lie between -0.785398 and 0.785398 rad (were 2 deg meant?)");
+    refused("--inclination '0.7 rad'", "--inclination 0.7 rad: must lie between -0.277639 and 0.277639 rad");
     refused("--inclination '20 deg to 30 deg'", "must lie between -15.9076 and 15.9076 deg");
     refused("--vibration-angle '30 rad'", "(were 30 deg meant?)");
-    refused("--stroke '30 m'", "--stroke 30 m: must lie between 2e-07 and 20 m (were 30 mm meant?)");
+    refused("--stroke '30 m'", "--stroke 30 m: must lie between 2e-06 and 2 m (were 30 mm meant?)");
     refused("--rpm 960 --amplitude '40 mm'", "an amplitude of 4.85 mm or less");
     refused("--frequency '960 Hz'", "a frequency of 49.8 Hz or less");
 }
@@ -163,7 +146,7 @@ TEST(Design, ChoosesAmongMotors) {
         {"--poles 4,,8 --mains 50", "write for example --poles 4,6,8"},
         {"--poles '' --mains 50", "--poles is empty; write for example --poles 4,6,8"},
         {"--poles 4 --mains '50 V'", "--mains 50 V: 'V' cannot be converted to Hz"},
-        {"--poles 4 --mains 0", "--mains 0: must be at least 1 and at most 400"},
+        {"--poles 4 --mains 0", "--mains 0 Hz: must lie between 1 and 400 Hz"},
         {"--poles 4 --mains 50 --slip 3", "--slip 3: must be at least 0 and at most 0.3"}};
     for (auto const& [motors, words] : refused) {
         Answer const answer = design(motors);
@@ -183,12 +166,6 @@ TEST(Design, WritesPlainNumbers) {
         "design --mass-flow '12 t/h' --bulk-density '600 kg/m3' --width '300 mm' --friction '0.25 to 0.35' "
         "--model-discrepancy 0.05");
     EXPECT_NE(range.text.find("for frictions of 0.2"), std::string::npos) << range.text;
-}
-
-// main() says the program's name, and the message not once more.
-TEST(CommandLine, HasTheNameOnce) {
-    EXPECT_EQ(run_program("theory point --frequncy 3").text,
-              "vibrotrough: theory point does not know --frequncy 3; did you mean --frequency?\n");
 }
 
 // A range may have its unit once, and a dash between plain numbers; a minus before one value is its sign.
@@ -244,13 +221,13 @@ TEST(TheoryPoint, RefusesWrongInputInOneLine) {
         EXPECT_NE(answer.text.find(words), std::string::npos) << answer.text;
     };
     refused("--throw-number two --tan-vibration-angle 0.5 --friction 0.3", "--throw-number two: ");
-    refused("--throw-number -2 --tan-vibration-angle 0.5 --friction 0.3", "must be above 0");
+    refused("--throw-number -2 --tan-vibration-angle 0.5 --friction 0.3", "must be at least");
     refused("--throw-number nan --tan-vibration-angle 0.5 --friction 0.3", "finite");
     refused("--tan-vibration-angle 0.5 --friction 0.3", "--throw-number is missing");
     refused("--throw-number 2 --friction 0.3", "--vibration-angle is missing");
     refused("--throw-number 2 --vibration-angle 30 --friction 0.3", "'30' has no unit");
     refused("--throw-number 2 --vibration-angle '30 mm' --friction 0.3", "cannot be converted");
-    refused("--throw-number 2 --vibration-angle '95 deg' --friction 0.3", "between 0 and 90 deg;");
+    refused("--throw-number 2 --vibration-angle '95 deg' --friction 0.3", "between 0 and 89 deg;");
     refused("--throw-number 2 --vibration-angle '30 deg' --tan-vibration-angle 1 --friction 0.3", "only one");
     refused("--throw-number 2 --vibration-angle '30 deg' --friction -0.1", "--friction -0.1");
 }

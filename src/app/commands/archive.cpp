@@ -109,12 +109,6 @@ Unpacked, a bundle is a campaign's folder: 'sha256sum -c SHA256SUMS' in it check
 prints the same table, digit for digit. The same campaign makes the same bytes.
 A bundle names the machines on which it was simulated and the path of the engine.
 
-Exit codes:
-    0  all well
-    2  the input is wrong: the campaign is still running, a result is damaged, a case has no result
-       (without --partial), or the output is another file
-    3  a file cannot be read, or there is no disk space
-
 Example:
   vibrotrough archive runs/demo --output supplement.zip --author "A. Researcher" \
       --license https://creativecommons.org/licenses/by/4.0/)");

@@ -1,7 +1,7 @@
 #include "app/commands.hpp"
 #include "app/commands/calibration_options.hpp"
 #include "app/commands/common_options.hpp"
-#include "app/commands/theory/options.hpp"
+#include "app/commands/option_table.hpp"
 #include "app/exit_code.hpp"
 #include "app/extra_lines.hpp"
 #include "app/learning.hpp"
@@ -25,17 +25,17 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CalibrateArguments {
-    std::string campaign, output, measured, engine;
-    Text budget, jobs;
-    bool quiet = false, accept_findings = false, allow_extra = false;
+    std::string campaign, measured;
+    Text budget;
+    QuantityOptions counts;
+    RunOptions running;
     CalibrationOptions shared;
 };
 
 /// The folder of the results: given itself, or that of a campaign file.
 fs::path folder_of(CalibrateArguments const& options) {
     if (fs::is_directory(options.campaign)) return options.campaign;
-    scenario::Campaign const campaign = scenario::read_campaign(options.campaign);
-    return options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
+    return results_folder(options.running.output, scenario::read_campaign(options.campaign).name);
 }
 
 /// A calibration on the surface that the results of a campaign give.
@@ -87,7 +87,7 @@ int refine(CalibrateArguments const& options, std::vector<learn::MeasuredSpeed> 
         learner.concentrate_on(
             learn::posterior_places(found.surface->inputs(), options.shared.free, found.calibration, speeds));
         learn::LearnStatus const status = learner.look();
-        if (!options.quiet)
+        if (!running.quiet)
             tell(
                 "calibrate: {} cases; half-width of the surface where the posterior lies: {:.4f} (useful: "
                 "{:.4f}); {:.3g} of {:.3g} core-hours spent\n",
@@ -108,14 +108,10 @@ int run_calibrate(CalibrateArguments& options) {
     for (std::string& name : options.shared.free) name = maker.full_key(name);
     if (!options.budget)
         return print(options, calibrate_on(campaign::open_plan(folder), maker, options, speeds));
-    RunOptions running;
+    RunOptions running = options.running;
     running.campaign_file = options.campaign;
     running.output = folder.string();
-    running.engine = options.engine;
-    running.quiet = options.quiet;
-    running.accept_findings = options.accept_findings;
-    running.allow_extra = options.allow_extra;
-    if (options.jobs) running.jobs = read_count("--jobs", *options.jobs, "2", 1, 10000);
+    running.jobs = static_cast<int>(options.counts.value("--jobs").value_or(running.jobs));
     return refine(options, speeds, running, read_core_time(*options.budget));
 }
 
@@ -130,7 +126,7 @@ void add_calibrate(CLI::App& program, int& exit_code) {
         ->required()
         ->type_name("DIR|CAMPAIGN.toml");
     command
-        ->add_option("--output", options->output,
+        ->add_option("--output", options->running.output,
                      "Folder of the results of CAMPAIGN.toml; default: runs/NAME")
         ->type_name("DIR");
     command->add_option("--measured", options->measured, "CSV file of measured speeds")
@@ -144,12 +140,12 @@ void add_calibrate(CLI::App& program, int& exit_code) {
             "until it is spent, or the surface is twice as precise there as the measurements; needs "
             "CAMPAIGN.toml with a [domain]")
         ->type_name("TIME");
-    add_engine(*command, options->engine);
-    command->add_option("--jobs", options->jobs, "Cores to use with --budget; default: all");
-    command->add_flag("--quiet", options->quiet, "Show no progress of the simulations");
-    command->add_flag("--accept-findings", options->accept_findings,
+    add_engine(*command, options->running.engine);
+    options->counts.add_to(*command, {{"--jobs", ", with --budget"}});
+    command->add_flag("--quiet", options->running.quiet, "Show no progress of the simulations");
+    command->add_flag("--accept-findings", options->running.accept_findings,
                       "Simulate although the check of the campaign found errors");
-    add_allow_extra(*command, options->allow_extra);
+    add_allow_extra(*command, options->running.allow_extra);
     command->footer(
         "The cases of the campaign give a surface of the velocity efficiency (see 'vibrotrough predict "
         "--help'). What the "

@@ -1,7 +1,6 @@
 #include "app/commands/calibration_options.hpp"
 
 #include "app/commands/common_options.hpp"
-#include "app/commands/theory/options.hpp"
 #include "app/decision_page.hpp"
 #include "app/python.hpp"
 #include "app/standard_streams.hpp"
@@ -28,13 +27,7 @@ or a tab.
 Prints the median and the 95 % interval of each free quantity, how far the Markov chains can be trusted (R-hat at most
 1.01, effective sample size at least 400), and by how much the speeds narrowed the range that was possible before; a
 quantity whose range stays wider than half is not identifiable from these speeds. The model discrepancy is the standard
-deviation of what the model misses from setting to setting, in velocity efficiency; it is estimated with the rest.
-
-Exit codes:
-    0  all well
-    1  the chains have not converged
-    2  the input is wrong
-    3  something is missing: Python with its modules, for --plot and --page)";
+deviation of what the model misses from setting to setting, in velocity efficiency; it is estimated with the rest.)";
 
 void CalibrationOptions::add_to(CLI::App& command) {
     command.add_option("--free", free, "Quantities to find, separated by commas")
@@ -51,16 +44,12 @@ void CalibrationOptions::add_to(CLI::App& command) {
         ->type_name("NAME=LOW:HIGH")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option(
-        "--uncertainty", uncertainty,
-        "Standard uncertainty of speeds that have none in the file, as a fraction, for example 0.03");
-    command.add_option(
-        "--common-error", common_error,
-        "Standard deviation of an error of the model that is the same in all measurements, in velocity "
-        "efficiency, for example 0.05; it looks like another friction and widens its interval; default: 0, "
-        "and in theory calibrate what the point mass misses at layers of the atlas");
+    quantities.add_to(command, {{"--uncertainty", "",
+                                 "Standard uncertainty of speeds that have none in the file, as a fraction, "
+                                 "for example 0.03"},
+                                {"--common-error"},
+                                {"--seed"}});
     command.add_flag("--without-discrepancy", exact, "Take the model to be exact");
-    command.add_option("--seed", seed, "Of the random numbers; default: 1");
     command
         .add_option("--plot", plot,
                     "Draw the distributions of all pairs (corner plot) into this PNG or SVG file")
@@ -77,9 +66,8 @@ void CalibrationOptions::add_to(CLI::App& command) {
 }
 
 std::vector<learn::MeasuredSpeed> CalibrationOptions::read_speeds(std::string const& file) const {
-    std::optional<double> relative;
-    if (uncertainty) relative = read_number_within("--uncertainty", *uncertainty, "0.03", 1e-6, 1);
-    auto speeds = learn::read_speeds(core::read_text_file(file).content, file, relative);
+    auto speeds =
+        learn::read_speeds(core::read_text_file(file).content, file, quantities.value("--uncertainty"));
     for (std::string const& sentence : learn::unusual_speeds(speeds))
         tell("vibrotrough: warning: {}: {}\n", file, sentence);
     return speeds;
@@ -137,10 +125,8 @@ std::vector<learn::FreeParameter> CalibrationOptions::parameters(
 learn::CalibrationSettings CalibrationOptions::settings() const {
     learn::CalibrationSettings result;
     if (exact) result.discrepancy = learn::Discrepancy::none;
-    if (common_error)
-        result.common_error = read_number_within("--common-error", *common_error, "0.05", 0, 0.5);
-    if (seed)
-        result.sampler.seed = static_cast<std::uint64_t>(read_count("--seed", *seed, "1", 0, 1'000'000'000));
+    result.common_error = quantities.value("--common-error").value_or(result.common_error);
+    if (auto const seed = quantities.value("--seed")) result.sampler.seed = static_cast<std::uint64_t>(*seed);
     return result;
 }
 

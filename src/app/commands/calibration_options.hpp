@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/commands/option_table.hpp"
 #include "learn/calibration.hpp"
 #include "learn/calibration_report.hpp"
 
@@ -19,15 +20,13 @@ extern char const* const calibration_help;
 
 /// The options that both calibrations have: on the theory, and on the surface of a layer.
 struct CalibrationOptions {
-    std::vector<std::string> free;            ///< names of the free parameters
-    std::vector<std::string> priors;          ///< NAME=LOW:HIGH
-    std::optional<std::string> uncertainty;   ///< relative, of speeds that have none
-    std::optional<std::string> common_error;  ///< of the model, in velocity efficiency
-    std::optional<std::string> seed;          ///< of the random numbers
-    std::string plot, python;                 ///< file of the corner plot, and the Python that draws it
-    std::string page, posterior;              ///< file of the page, and of the draws for `design`
-    bool exact = false;                       ///< without model discrepancy
-    bool json = false;                        ///< print JSON
+    std::vector<std::string> free;    ///< names of the free parameters
+    std::vector<std::string> priors;  ///< NAME=LOW:HIGH
+    QuantityOptions quantities;       ///< uncertainty, common error, seed
+    std::string plot, python;         ///< file of the corner plot, and the Python that draws it
+    std::string page, posterior;      ///< file of the page, and of the draws for `design`
+    bool exact = false;               ///< without model discrepancy
+    bool json = false;                ///< print JSON
 
     /// Declares the options of a command.
     void add_to(CLI::App& command);

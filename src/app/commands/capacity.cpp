@@ -1,7 +1,7 @@
 #include "learn/capacity.hpp"
 
 #include "app/commands.hpp"
-#include "app/commands/theory/options.hpp"
+#include "app/commands/option_table.hpp"
 #include "app/exit_code.hpp"
 #include "app/json_list.hpp"
 #include "app/learning.hpp"
@@ -29,7 +29,7 @@ constexpr double kg_per_s_in_t_per_h = 3.6;
 
 struct CapacityArguments {
     RunOptions shared;
-    Text precision;
+    QuantityOptions quantities;
     bool as_json = false;
 };
 
@@ -210,10 +210,7 @@ void add_capacity(CLI::App& program, int& exit_code) {
     CLI::App* const command =
         program.add_subcommand("capacity", "Find the largest feed that an open trough carries away");
     options->shared.add_to(*command);
-    command->add_option(
-        "--precision", options->precision,
-        "How much larger the smallest feed that is not carried may be than the largest that is, "
-        "as a share of it; default 0.1");
+    options->quantities.add_to(*command, {{"--precision"}});
     command->add_flag("--json", options->as_json, "Print one JSON object instead of a table");
     command->footer(
         R"(The campaign file describes one open trough with a section [feed], which must say feed.height: the trough is full
@@ -226,21 +223,10 @@ cycles make the answer sharper.
 Every feed is a case of the campaign: 'compare', 'report' and 'export' show them all, and feeds of a [sweep] over
 feed.mass_flow count as well. Ctrl-C stops cleanly, and the same command continues.
 
-Exit codes:
-    0  the capacity is known
-    1  only one side of it is known: twelve feeds in a row were carried, or were not, or the next
-       one does not fit through the zone that the feed falls into
-    2  the input is wrong
-    3  something is missing: no liggghts, one that failed its probes, no disk space, or the result
-       of a feed that failed for another reason
-  130  interrupted
-
 Example:
   vibrotrough capacity open.toml --jobs 2        # with the file of 'vibrotrough init open')");
     command->callback([options, &exit_code] {
-        double const precision = options->precision
-                                     ? read_number_within("--precision", *options->precision, "0.1", 0.005, 1)
-                                     : 0.1;
+        double const precision = options->quantities.value("--precision").value_or(0.1);
         scenario::CaseMaker const maker(options->shared.campaign_file);
         check_campaign(options->shared.campaign_file, maker);
         exit_code = CapacitySearch(*options, precision, maker).run();

@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
+#include "app/json_list.hpp"
 #include "core/error.hpp"
 #include "deck/campaign_check.hpp"
 #include "deck/estimates.hpp"
@@ -73,22 +74,20 @@ Json describe(prepare::PreparedCase const& prepared, int number, std::string con
 
 /// Prints case by case: all findings of ten thousand cases at once would need half a gigabyte.
 void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& found) {
-    Json const head{{"campaign", campaign.name}, {"warnings", found.warnings()}, {"errors", found.errors()}};
-    Json const tail{{"grain_steps_per_cpu_second", usual_speed},
+    Json const head{{"campaign", campaign.name},
+                    {"warnings", found.warnings()},
+                    {"errors", found.errors()},
+                    {"grain_steps_per_cpu_second", usual_speed},
                     {"expected_bytes", found.bytes},
                     {"largest_bytes", found.largest_bytes},
                     {"engine_memory_bytes", found.engine_memory},
-                    {"expected_core_hours", found.work / usual_speed / 3600}};
-    std::string const begin = head.dump(2), end = tail.dump(2);
-    fmt::print("{},\n  \"cases\": [", begin.substr(0, begin.rfind('\n')));
+                    {"expected_core_hours", found.work / usual_speed / 3600},
+                    {"cases", Json::array()}};
     prepare::CasePreparer preparer;
-    int number = 0;
-    for (scenario::Scenario const& scenario : campaign.cases) {
-        Json const one =
-            describe(preparer.prepare(scenario), ++number, swept_label(scenario, campaign.swept));
-        fmt::print("{}\n{}", number == 1 ? "" : ",", one.dump(2));
-    }
-    fmt::print("\n  ],\n{}\n", end.substr(end.find('\n') + 1));
+    print_with_list(head, campaign.cases.size(), [&](std::size_t i) {
+        scenario::Scenario const& one = campaign.cases[i];
+        return describe(preparer.prepare(one), static_cast<int>(i) + 1, swept_label(one, campaign.swept));
+    });
 }
 
 /// "600 kg/m3", or "500 to 600 kg/m3" when the cases differ.
@@ -203,10 +202,6 @@ that is too low for them is an error.
 
 'vibrotrough run' checks too: it shows warnings, and it refuses a campaign with errors unless --accept-findings is
 given.
-
-Exit codes:
-    0  no errors; there may be warnings
-    2  errors were found, or the campaign file is wrong
 
 Example:
   vibrotrough check validation/demo/campaign.toml)");

@@ -190,10 +190,6 @@ cycles do not help where it is the numerical one.
 )") + mode_letters +
         R"(
 
-Exit codes:
-    0  all well
-    2  the input is wrong
-
 Examples:
   vibrotrough compare runs/demo --csv > demo.csv
   vibrotrough compare runs/demo --filter 'throw_number>1.8' --sort difference:desc

@@ -1,17 +1,15 @@
+#include "app/campaign_run.hpp"
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
 #include "app/extra_lines.hpp"
-#include "app/progress_printer.hpp"
 #include "app/standard_streams.hpp"
-#include "campaign/execute/campaign_driver.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/numerics_results.hpp"
 #include "campaign/state/overview.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/parallel.hpp"
 #include "core/shell.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
@@ -31,13 +29,9 @@ namespace fs = std::filesystem;
 
 struct ConvergenceArguments {
     std::string campaign;
-    std::string output;
-    std::string engine;
     std::vector<std::string> cases;
     std::optional<double> half_width;
-    bool accept_failed_probes = false;
-    bool allow_extra = false;
-    int jobs = core::count_available_cores();
+    StudyOptions study;
 };
 
 /// The campaign that is studied: a folder that was run, or a campaign file with the folder that it has or
@@ -45,15 +39,13 @@ struct ConvergenceArguments {
 campaign::Plan open_campaign(ConvergenceArguments const& options, std::string const& engine_version) {
     fs::path const given = options.campaign;
     if (fs::is_directory(given)) {
-        if (!options.output.empty())
+        if (!options.study.output.empty())
             throw core::InputError(
                 "--output belongs to a campaign file; a folder is studied in its own place");
         return campaign::open_plan(given);
     }
     scenario::Campaign const campaign = scenario::read_campaign(given);
-    fs::path const folder =
-        options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
-    return campaign::make_plan(campaign, folder, engine_version);
+    return campaign::make_plan(campaign, results_folder(options.study.output, campaign.name), engine_version);
 }
 
 /// The studies of the chosen cases. @throws core::InputError when there is no such case
@@ -143,30 +135,21 @@ void print_advice(std::vector<evaluate::NumericsBudget> const& budgets) {
 }
 
 int run_convergence(ConvergenceArguments const& options) {
-    std::optional<fs::path> const program =
-        options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
     if (!fs::exists(options.campaign)) scenario::read_campaign(options.campaign);  // throws with the cure
-    engine::Engine engine = engine::find_engine(program);
+    engine::Engine engine = engine_at(options.study.engine);
     campaign::Plan const original = open_campaign(options, engine.version);
     std::vector<scenario::Scenario> cases;
     for (campaign::PlannedCase const& planned : original.cases) cases.push_back(planned.scenario());
-    check_extra_lines(options.campaign, cases, options.allow_extra);
+    check_extra_lines(options.campaign, cases, options.study.allow_extra);
     auto const studies = plan_studies(original, options);
     fs::path const folder = original.folder / "convergence";
     core::make_folder(original.folder);
     core::make_folder(folder);
-    if (!certify(engine, options.accept_failed_probes)) return interrupted;
+    if (!certify(engine, options.study.accept_failed_probes)) return interrupted;
     campaign::Plan plan = write_study(original, studies, folder, engine.version);
     tell("{} case{} of '{}' in {} variations\n", studies.size(), studies.size() == 1 ? "" : "s",
          original.name, plan.cases.size());
-    campaign::Summary summary;
-    {
-        ProgressPrinter printer;
-        summary = campaign::run_campaign(
-            plan, folder / "study.toml", *campaign::make_policy(), campaign::executor_kind("local"),
-            {folder, engine, {}, options.jobs, {}, {options.allow_extra}}, campaign::Until::done, printer);
-    }
-    campaign::write_campaign_file(plan);
+    campaign::Summary const summary = run_study(options.study, engine, plan, folder / "study.toml");
     auto const budgets = campaign::measure_numerics(plan, studies);
     for (evaluate::NumericsBudget const& budget : budgets) print(budget);
     if (summary.interrupted) {
@@ -200,7 +183,7 @@ nearer to its limit, one at a time, and adds the differences up to an error budg
                      "The campaign file, or the folder of a campaign that was run")
         ->required()
         ->type_name("CAMPAIGN.toml|DIR");
-    add_results_folder(*command, options->output);
+    options->study.add_to(*command);
     command
         ->add_option(
             "--case", options->cases,
@@ -215,12 +198,6 @@ nearer to its limit, one at a time, and adds the differences up to an error budg
                      "measure.half_width of the case. No error below about 1.4 times this is resolved")
         ->check(CLI::Range(1e-5, 1.0))
         ->type_name("H");
-    command->add_option("--jobs", options->jobs, "Engines that run at a time")
-        ->check(CLI::Range(1, 4096))
-        ->capture_default_str();
-    add_engine(*command, options->engine);
-    command->add_flag("--accept-failed-probes", options->accept_failed_probes, accept_failed_probes_help);
-    add_allow_extra(*command, options->allow_extra);
     command->footer(
         R"(Each case is simulated with its own settings, with Young's modulus times 4 and 16, with half the
 time step, and in a box of twice the length and of twice the width. This costs about 13 times as much as the case itself.
@@ -237,13 +214,6 @@ The budget is written to DIR/numerics.json. 'vibrotrough compare DIR --budget', 
 the numerical error beside the statistical one. Cases that were not studied borrow it from the nearest case that was.
 
 Ctrl-C stops the run cleanly, and the same command continues it.
-
-Exit codes:
-    0  the numerical error of every chosen case was measured
-    1  a part of some budget could not be measured; the reason is printed
-    2  the input is wrong
-    3  something is missing: no liggghts, one that failed its probes, or no disk space
-  130  interrupted
 
 Examples:
   vibrotrough convergence runs/demo --jobs 2

@@ -30,7 +30,8 @@ struct DesignArguments {
     DesignOptions task;
     std::string campaign, page, python;
     bool json = false, verify = false;
-    Text budget, jobs;
+    Text budget;
+    QuantityOptions counts;
     VerificationOptions verification;
 };
 
@@ -100,7 +101,7 @@ VerifiedDesign find_design(DesignArguments const& options, learn::DesignTask tas
     }
     VerificationOptions how = options.verification;
     if (options.budget) how.budget = read_core_time(*options.budget);
-    if (options.jobs) how.jobs = read_count("--jobs", *options.jobs, "2", 1, 10000);
+    how.jobs = static_cast<int>(options.counts.value("--jobs").value_or(how.jobs));
     return verify_design(task, how);
 }
 
@@ -155,7 +156,7 @@ void add_verification(CLI::App& command, DesignArguments& options) {
                         "Folder of the simulations, from which a later call goes on")
             ->type_name("DIR")
             ->capture_default_str());
-    add(command.add_option("--jobs", options.jobs, "Cores to use; default: all"));
+    options.counts.add_to(command, {{"--jobs"}}, "Verification");
     add(command
             .add_option("--liggghts", options.verification.engine,
                         "The LIGGGHTS program; default: liggghts on the PATH")
@@ -206,13 +207,6 @@ their diameter and rolling friction are yours; the rest is assumed, as machine_N
 A range is "LOW to HIGH"; a single value fixes the quantity. With several speeds or strokes of the drive
 (--rpm 960,1450,2900, --poles 4,6,8 --mains 50, --stroke "6,8,10 mm") a machine is found for each; the best by the
 objective is printed, and what the others gave.
-
-Exit codes:
-    0  the mass flow is reached
-    1  it is not: the fastest machine within the limits is printed; or the error of the model is
-       not known there, so that no probability is given; or the machine was not verified
-    2  the input is wrong, or no machine keeps all limits
-    3  something is missing: Python with its modules, for --page; LIGGGHTS, for --verify
 
 Examples:
   vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \

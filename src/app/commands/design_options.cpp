@@ -1,7 +1,6 @@
 #include "app/commands/design_options.hpp"
 
 #include "app/commands/calibration_options.hpp"
-#include "app/commands/uncertain_options.hpp"
 #include "app/learning.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/atomic_file.hpp"
@@ -30,17 +29,14 @@ std::map<std::string, learn::Objective> const objectives{
 
 learn::SettingErrors read_errors(DesignOptions const& o, double bulk_density) {
     learn::SettingErrors errors{.bulk_density = bulk_density};
-    if (o.stroke_uncertainty)
-        errors.amplitude =
-            read_positive_quantity("--stroke-uncertainty", *o.stroke_uncertainty, "m", "0.2 mm") / 2;
-    if (o.angle_uncertainty)
-        errors.vibration_angle = read_angle("--angle-uncertainty", *o.angle_uncertainty, "0.5 deg", 0, 20);
+    errors.amplitude = o.quantities.value("--stroke-uncertainty").value_or(2 * errors.amplitude) / 2;
+    errors.vibration_angle = o.quantities.value("--angle-uncertainty").value_or(errors.vibration_angle);
     return errors;
 }
 
 /// @throws core::InputError when the stroke cannot follow from the exciter
 void check_exciter(DesignOptions const& o, learn::DesignTask const& task) {
-    required("--length", o.length, "\"3 m\"");
+    o.quantities.required("--length");
     if (!task.machine->exciter) return;
     refuse_both("--exciter", o.exciter.exciter(), "--stroke", o.drive.stroke);
     refuse_both("--exciter", o.exciter.exciter(), "--amplitude", o.drive.amplitude);
@@ -85,12 +81,13 @@ learn::DesignModel DesignOptions::read_surface(learn::KnownFriction const& known
     GivenPlace const given = read_places(places, maker);
     learn::CampaignPoints points = learn::campaign_points(plan, maker, given.words);
     tell_of_other_layers(points.other_layers);
-    learn::KnownMaterial material{known, {{}, read_rolling_friction(), read_grain_friction()}};
-    if (grain_diameter)
-        material.grains.diameter = read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm");
+    learn::KnownMaterial material{
+        known, {{}, quantities.uncertain("--rolling-friction"), quantities.uncertain("--grain-friction")}};
+    if (auto const diameter = quantities.value("--grain-diameter")) material.grains.diameter = *diameter;
     return learn::surface_design_model(std::make_shared<atlas::Surface const>(learn::surface_of(points)),
                                        learn::CampaignTrend(maker, points.inputs, given.words), given.numbers,
-                                       material, points.numerics, read_discrepancy().value_or(0));
+                                       material, points.numerics,
+                                       quantities.value("--model-discrepancy").value_or(0));
 }
 
 void DesignOptions::add_to(CLI::App& command) {
@@ -100,8 +97,7 @@ void DesignOptions::add_to(CLI::App& command) {
     command.add_option("--objective", objective, "What the machine is to be best at")
         ->check(CLI::IsMember({"fastest", "gentlest-landing", "least-machine-number", "least-power"}))
         ->capture_default_str();
-    command.add_option("--confidence", confidence,
-                       "Probability with which the mass flow is to be reached; default: 0.95");
+    quantities.add_to(command, {{"--confidence"}, {"--model-discrepancy"}});
     command
         .add_option("--model", models,
                     "By which model: point-mass, rolling-layer, atlas, surface, or several, separated by "
@@ -124,42 +120,39 @@ void DesignOptions::add_to(CLI::App& command) {
         ->type_name("KEY=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option(
-        "--model-discrepancy", discrepancy,
-        "Standard deviation of what every model misses, in velocity efficiency; default: what simulated "
-        "layers "
-        "say at the throw number, slope and depth (validation/model_errors), for the calibrated model what "
-        "--posterior says, and for a surface its own uncertainty alone");
 }
 
 void DesignOptions::add_material(CLI::App& command) {
-    auto const add = [&](char const* name, Text& text, char const* help) {
-        command.add_option(name, text, help)->group("The task");
-    };
-    add("--mass-flow", mass_flow, "To be reached, for example \"12 t/h\", or by volume \"20 m3/h\"");
-    add("--bulk-density", bulk_density,
-        "Of the material, for example \"600 kg/m3\", \"600+-30 kg/m3\" or \"550 to 650 kg/m3\"");
-    add("--width", width, "Of the trough, for example \"300 mm\"");
-    add("--length", length, "Of the trough, for power and time, for example \"3 m\"");
-    add("--layer-depth", depth, "Range of the layer's depth; default: \"2 mm to 100 mm\"");
-    add("--friction", friction,
-        "mu, friction coefficient of the material on the trough: 0.3, with its standard uncertainty "
-        "0.3+-0.03, "
-        "or anything within a range, \"0.25 to 0.35\"");
-    add("--friction-uncertainty", friction_uncertainty,
-        "Its standard uncertainty (one standard deviation), instead of +-; default: 0");
-    add("--grain-diameter", grain_diameter,
-        "Of the grains: for the depth of the layer in grains, for the atlas, and for the campaign, whose "
-        "default is \"3 mm\"");
-    add("--rolling-friction", rolling_friction,
-        "Of the grains, for the atlas, the rolling-layer law and layers that are simulated, written like "
-        "--friction; default: not known, anything between 0 and 0.2, and 0.1 in the campaign");
-    add("--grain-friction", grain_friction,
-        "Friction between the grains, for the atlas, written like --friction; default: not known, anything "
-        "between 0.3 and 0.8");
-    add("--posterior", posterior,
-        "In place of both: the file that 'vibrotrough theory calibrate --posterior FILE' wrote, or what its "
-        "--json printed");
+    std::string const group = "The task";
+    command
+        .add_option("--mass-flow", mass_flow,
+                    "To be reached, for example \"12 t/h\", or by volume \"20 m3/h\"")
+        ->group(group);
+    quantities.add_to(
+        command,
+        {{"--bulk-density", ", such as \"600 kg/m3\", \"600+-30 kg/m3\" or \"550 to 650 kg/m3\"",
+          "Of the material"},
+         {"--width", ", for example \"300 mm\"", "Of the trough"},
+         {"--length"},
+         {"--layer-depth"},
+         {"--friction",
+          ": 0.3, with its standard uncertainty 0.3+-0.03, or anything within a range, \"0.25 to 0.35\""},
+         {"--friction-uncertainty"},
+         {"--grain-diameter", "",
+          "Of the grains: for the depth of the layer in grains, for the atlas, and for the campaign, whose "
+          "default is \"3 mm\""},
+         {"--rolling-friction", "",
+          "Of the grains, for the atlas, the rolling-layer law and layers that are simulated, written like "
+          "--friction; default: not known, anything between 0 and 0.2, and 0.1 in the campaign"},
+         {"--grain-friction", "",
+          "Friction between the grains, for the atlas, written like --friction; default: not known, anything "
+          "between 0.3 and 0.8"}},
+        group);
+    command
+        .add_option("--posterior", posterior,
+                    "In place of the friction: the file that 'vibrotrough theory calibrate --posterior FILE' "
+                    "wrote, or what its --json printed")
+        ->group(group);
 }
 
 void DesignOptions::add_limits(CLI::App& command) {
@@ -178,73 +171,57 @@ void DesignOptions::add_limits(CLI::App& command) {
     add("--poles", drive.poles,
         "Instead of --rpm, poles of the motors that can be had, such as 4,6,8: 120 f / poles (1 - slip) "
         "turns per minute");
-    add("--mains", drive.mains, "f, frequency of the mains for --poles, in Hz: 50, or 60 as in America");
-    add("--slip", drive.slip,
-        "Slip of these motors, by which fraction they are slower than their field, such as 0.03; default: 0");
+    add("--mains", drive.mains, option_row("--mains").meaning.c_str());
+    add("--slip", drive.slip, option_row("--slip").meaning.c_str());
     add("--vibration-angle", drive.vibration_angle, "Range of beta; default: \"5 deg to 60 deg\"");
     add("--inclination", drive.inclination, "Range of alpha, uphill positive; default: level");
-    add("--stroke-uncertainty", stroke_uncertainty,
-        "Standard uncertainty of the stroke as it is set, for example \"0.2 mm\"; default: exact");
-    add("--angle-uncertainty", angle_uncertainty,
-        "Standard uncertainty of the vibration angle as it is set, for example \"0.5 deg\"; default: exact");
     add("--machine-number", drive.machine_number,
         "Largest machine number K = omega^2 r / g that the structure bears; default: 5");
     add("--throw-number", drive.throw_number,
         "Largest throw number Gamma; default: 3.29, at which a flight takes one cycle");
-    add("--landing-speed", landing_speed,
-        "Largest speed of the material relative to the trough at an impact, for example \"0.3 m/s\"");
+    quantities.add_to(command, {{"--stroke-uncertainty"}, {"--angle-uncertainty"}, {"--landing-speed"}},
+                      "The machine's limits");
 }
 
 learn::KnownFriction DesignOptions::read_friction(std::string& calibrated_model) const {
-    refuse_both("--posterior", posterior, "--friction", friction);
-    refuse_both("--posterior", posterior, "--friction-uncertainty", friction_uncertainty);
+    for (char const* const other : {"--friction", "--friction-uncertainty"})
+        refuse_both("--posterior", posterior, other, quantities.text(other));
     if (posterior) {
         core::TextFile const file = core::read_text_file(*posterior);
         auto const read = learn::read_posterior(file.content, *posterior);
         calibrated_model = read.model;
         return read.friction;
     }
-    learn::Uncertain known =
-        read_uncertain_number("--friction", required("--friction", friction, "0.3"), "0.3", 0.01, 10);
-    if (friction_uncertainty) {
-        if (known.sd > 0) refuse_both("--friction", friction, "--friction-uncertainty", friction_uncertainty);
-        known.sd = read_number_within("--friction-uncertainty", *friction_uncertainty, "0.03", 0, 1);
+    required("--friction", quantities.text("--friction"), "0.3");
+    learn::Uncertain known = *quantities.uncertain("--friction");
+    constexpr double least = 0.01;
+    if ((known.shape == learn::Shape::uniform ? known.low() : known.mean) < least)
+        throw core::InputError(fmt::format("--friction {}: must be at least {}; write for example 0.3",
+                                           *quantities.text("--friction"), least));
+    if (auto const sd = quantities.value("--friction-uncertainty")) {
+        if (known.sd > 0) quantities.refuse_both("--friction", "--friction-uncertainty");
+        known.sd = *sd;
     }
     return known.shape == learn::Shape::uniform ? learn::friction_between(known.low(), known.high())
                                                 : learn::normal_friction(known.mean, known.sd);
 }
 
-std::optional<learn::Uncertain> DesignOptions::read_rolling_friction() const {
-    if (!rolling_friction) return {};
-    return read_uncertain_number("--rolling-friction", *rolling_friction, "0.05", 0, 1);
-}
-
-std::optional<learn::Uncertain> DesignOptions::read_grain_friction() const {
-    if (!grain_friction) return {};
-    return read_uncertain_number("--grain-friction", *grain_friction, "0.5", 0, 10);
-}
-
 learn::KnownGrains DesignOptions::read_grains() const {
-    if (!grain_diameter)
+    auto const diameter = quantities.value("--grain-diameter");
+    if (!diameter)
         throw core::InputError("--model atlas needs the size of the grains; write --grain-diameter \"3 mm\"");
-    return {read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm"), read_rolling_friction(),
-            read_grain_friction()};
-}
-
-std::optional<double> DesignOptions::read_discrepancy() const {
-    if (!discrepancy) return {};
-    return read_number_within("--model-discrepancy", *discrepancy, "0.05", 0, 1);
+    return {*diameter, quantities.uncertain("--rolling-friction"), quantities.uncertain("--grain-friction")};
 }
 
 bool DesignOptions::material_chooses_model() const {
-    return models.empty() && surface.empty() && !posterior && grain_diameter;
+    return models.empty() && surface.empty() && !posterior && quantities.has("--grain-diameter");
 }
 
 /// The atlas decides for spheres that roll, the point mass for grains that do not; of those between them
 /// nothing is known. The other models stand beside it.
 void DesignOptions::choose_models(learn::DesignTask& task) const {
-    auto const missed = read_discrepancy();
-    auto const rolling = read_rolling_friction();
+    auto const missed = quantities.value("--model-discrepancy");
+    auto const rolling = quantities.uncertain("--rolling-friction");
     auto const point_mass = learn::point_mass_design_model(missed);
     auto const law = learn::rolling_layer_design_model(rolling, missed, task.friction.median);
     if (rolling && rolling->mean >= learn::least_friction_without_rolling) {
@@ -263,7 +240,7 @@ void DesignOptions::choose_models(learn::DesignTask& task) const {
 }
 
 std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction const& known) const {
-    std::optional<double> const missed = read_discrepancy();
+    std::optional<double> const missed = quantities.value("--model-discrepancy");
     auto names = models;
     if (names.empty()) names.emplace_back(surface.empty() ? "point-mass" : "surface");
     bool const has_surface = std::ranges::find(names, "surface") != names.end();
@@ -278,7 +255,8 @@ std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction 
         if (name == "point-mass")
             all.push_back(learn::point_mass_design_model(missed));
         else if (name == "rolling-layer")
-            all.push_back(learn::rolling_layer_design_model(read_rolling_friction(), missed, known.median));
+            all.push_back(learn::rolling_layer_design_model(quantities.uncertain("--rolling-friction"),
+                                                            missed, known.median));
         else if (name == "atlas")
             all.push_back(learn::atlas_design_model(read_grains(), missed.value_or(0), known.median));
         else
@@ -288,10 +266,6 @@ std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction 
 }
 
 learn::DesignTask DesignOptions::task() const {
-    auto const quantity = [](char const* option, Text const& text, char const* unit, char const* example) {
-        return read_positive_quantity(option, required(option, text, fmt::format("\"{}\"", example)), unit,
-                                      example);
-    };
     learn::DesignTask task{};
     ReadSpace const read = read_drive_space(drive);
     task.space = read.space;
@@ -300,25 +274,24 @@ learn::DesignTask DesignOptions::task() const {
     task.tells_amplitude = drive.amplitude.has_value();
     task.tells_frequency = drive.frequency.has_value();
     std::string const flow = required("--mass-flow", mass_flow, "\"12 t/h\"");
-    auto const density = read_uncertain_quantity(
-        "--bulk-density", required("--bulk-density", bulk_density, "\"600 kg/m3\""), "kg/m3", "600 kg/m3");
+    quantities.required("--width");
+    required("--bulk-density", quantities.text("--bulk-density"), "\"600 kg/m3\"");
+    auto const density = *quantities.uncertain("--bulk-density");
     task.bulk_density = density.mean;
     task.errors = read_errors(*this, density.sd);
     task.mass_flow = read_mass_flow("--mass-flow", flow, task.bulk_density);
-    task.width = quantity("--width", width, "m", "300 mm");
-    if (length) task.length = quantity("--length", length, "m", "3 m");
+    task.width = *quantities.value("--width");
+    task.length = quantities.value("--length").value_or(task.length);
     task.machine = exciter.machine();
     if (task.machine) check_exciter(*this, task);
-    if (landing_speed) task.landing_speed = quantity("--landing-speed", landing_speed, "m/s", "0.3 m/s");
-    if (confidence) task.confidence = read_number_within("--confidence", *confidence, "0.95", 0.5, 0.999);
-    if (depth)
-        task.depth = read_range("--layer-depth", *depth, "5 mm to 60 mm", [](std::string const& text) {
-            return read_positive_quantity("--layer-depth", text, "m", "5 mm to 60 mm");
-        });
-    if (grain_diameter)
-        task.grain_diameter = read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm");
-    if (rolling_friction) task.rolling_friction = read_rolling_friction()->mean;
-    if (grain_friction) task.grain_friction = read_grain_friction()->mean;
+    task.landing_speed = quantities.value("--landing-speed");
+    task.confidence = quantities.value("--confidence").value_or(task.confidence);
+    if (auto const& depth = quantities.text("--layer-depth"))
+        task.depth = read_option_range("--layer-depth", *depth);
+    task.grain_diameter = quantities.value("--grain-diameter");
+    if (auto const rolling = quantities.uncertain("--rolling-friction"))
+        task.rolling_friction = rolling->mean;
+    if (auto const between = quantities.uncertain("--grain-friction")) task.grain_friction = between->mean;
     std::string calibrated_model;
     task.friction = read_friction(calibrated_model);
     tell_unusual(drive, task.space, task.friction.median, task.bulk_density);
@@ -333,7 +306,7 @@ learn::DesignTask DesignOptions::task() const {
         task.models = read_models(task.friction);
     task.objective = objectives.at(objective);
     // What a calibration says of a model's error holds for the model that was calibrated.
-    if (!task.friction.discrepancies.empty() && !discrepancy) {
+    if (!task.friction.discrepancies.empty() && !quantities.has("--model-discrepancy")) {
         for (learn::DesignModel& model : task.models)
             model.uses_calibrated_discrepancy = model.name == calibrated_model;
     }

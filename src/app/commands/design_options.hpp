@@ -17,18 +17,14 @@ namespace vibrotrough::app {
 
 /// The options of `vibrotrough design` that describe its task.
 struct DesignOptions {
-    Text mass_flow, bulk_density, width, length, depth;     ///< what is to be carried
-    Text friction, friction_uncertainty, posterior;         ///< of the material
-    Text grain_diameter, rolling_friction, grain_friction;  ///< of its grains
-    Text stroke_uncertainty, angle_uncertainty;             ///< of what the machine is set to
-    DriveTexts drive;                                       ///< among which it chooses
-    Text landing_speed;                                     ///< largest value
-    Text confidence, discrepancy;                           ///< of the answer
-    ExciterOptions exciter;                                 ///< and springs
-    std::vector<std::string> models;                        ///< point-mass, rolling-layer, atlas, surface
-    std::string surface;                                    ///< folder of the campaign of the surface
-    std::vector<std::string> places;                        ///< KEY=VALUE of the surface's other inputs
-    std::string objective = "fastest";                      ///< what to be best at
+    QuantityOptions quantities;         ///< of the task, its material and its answer
+    Text mass_flow, posterior;          ///< to be carried; in place of the friction
+    DriveTexts drive;                   ///< among which it chooses
+    ExciterOptions exciter;             ///< and springs
+    std::vector<std::string> models;    ///< point-mass, rolling-layer, atlas, surface
+    std::string surface;                ///< folder of the campaign of the surface
+    std::vector<std::string> places;    ///< KEY=VALUE of the surface's other inputs
+    std::string objective = "fastest";  ///< what to be best at
 
     /// Declares the options of the command.
     void add_to(CLI::App& command);
@@ -41,10 +37,7 @@ struct DesignOptions {
   private:
     void add_material(CLI::App& command);
     void add_limits(CLI::App& command);
-    std::optional<learn::Uncertain> read_rolling_friction() const;  ///< nothing: not known
-    std::optional<learn::Uncertain> read_grain_friction() const;    ///< likewise
     learn::KnownGrains read_grains() const;
-    std::optional<double> read_discrepancy() const;
     learn::KnownFriction read_friction(std::string& calibrated_model) const;
     std::vector<learn::DesignModel> read_models(learn::KnownFriction const& known) const;
     learn::DesignModel read_surface(learn::KnownFriction const& known) const;

@@ -1,6 +1,5 @@
 #include "app/commands/exciter_options.hpp"
 
-#include "app/commands/uncertain_options.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 
@@ -35,42 +34,35 @@ learn::Exciter read_exciter(std::string const& text) {
 }  // namespace
 
 void ExciterOptions::add_to(CLI::App& command) {
-    auto const add = [&](char const* name, Text& text, char const* help) {
-        command.add_option(name, text, help)->group("What moves the trough");
-    };
-    add("--trough-mass", trough_mass_,
-        "Of all that moves, with the motors and without material, for example \"180 kg\"; with --length, the "
-        "exciter that the stroke needs is told");
-    add("--exciter", exciter_,
-        "Unbalanced motors, all together, from which the stroke follows: their static moment, "
-        "\"static 840 kg mm\", working moment, \"working 168 kg cm\", or centrifugal force, "
-        "\"8.5 kN at 960 rpm\"");
-    add("--spring", spring_,
-        "Stiffness of all springs in the direction of vibration, for example \"200 N/mm\"; default: so soft "
-        "that it does not count");
-    add("--added-mass", added_mass_,
-        "Part of the material's mass that moves with the trough, from added_mass_fraction of a campaign or "
-        "written like --friction; default: that of the atlas' layers, else \"0.10 to 0.25\" "
-        "(NetterVibration)");
+    std::string const group = "What moves the trough";
+    quantities_.add_to(command, {{"--trough-mass"}, {"--spring"}, {"--added-mass"}}, group);
+    command
+        .add_option("--exciter", exciter_,
+                    "Unbalanced motors, all together, from which the stroke follows: their static moment, "
+                    "\"static 840 kg mm\", working moment, \"working 168 kg cm\", or centrifugal force, "
+                    "\"8.5 kN at 960 rpm\"")
+        ->group(group);
 }
 
 std::optional<learn::MovedMachine> ExciterOptions::machine() const {
-    if (!trough_mass_) {
-        for (auto const& [name, text] :
-             {std::pair{"--exciter", exciter_}, {"--spring", spring_}, {"--added-mass", added_mass_}})
+    auto const mass = quantities_.value("--trough-mass");
+    if (!mass) {
+        for (auto const& [name, text] : {std::pair{"--exciter", exciter_},
+                                         {"--spring", quantities_.text("--spring")},
+                                         {"--added-mass", quantities_.text("--added-mass")}})
             if (text)
                 throw core::InputError(fmt::format(
                     "{} {}: needs the mass that moves; write --trough-mass \"180 kg\"", name, *text));
         return {};
     }
     learn::MovedMachine machine{};
-    machine.mass = read_positive_quantity("--trough-mass", *trough_mass_, "kg", "180 kg");
-    if (spring_ && !exciter_)
-        throw core::InputError(fmt::format("--spring {}: needs the exciter; {}", *spring_, ways));
+    machine.mass = *mass;
+    if (quantities_.has("--spring") && !exciter_)
+        throw core::InputError(fmt::format("--spring: needs the exciter; {}", ways));
     if (exciter_) machine.exciter = read_exciter(std::string(core::trimmed(*exciter_)));
-    if (spring_) machine.spring = read_positive_quantity("--spring", *spring_, "N/m", "200 N/mm");
-    if (added_mass_) {
-        machine.added_mass = read_uncertain_number("--added-mass", *added_mass_, "0.17", -1, 1);
+    machine.spring = quantities_.value("--spring").value_or(machine.spring);
+    if (auto const added = quantities_.uncertain("--added-mass")) {
+        machine.added_mass = *added;
         machine.added_mass_source = learn::AddedMassSource::given;
     }
     return machine;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/commands/theory/options.hpp"
+#include "app/commands/option_table.hpp"
 #include "learn/exciter.hpp"
 
 #include <optional>
@@ -19,7 +19,8 @@ class ExciterOptions {
     Text const& exciter() const { return exciter_; }
 
   private:
-    Text trough_mass_, exciter_, spring_, added_mass_;
+    QuantityOptions quantities_;
+    Text exciter_;
 };
 
 }  // namespace vibrotrough::app

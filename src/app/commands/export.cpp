@@ -214,11 +214,6 @@ Four .pvd files are written for each case: the grains, the trough, the theory's 
 with the grains), and the velocity profile of the layer; with walls a fifth. The script view.sh beside them opens them
 all. Without --case, the table of all cases is written too. Prints the commands that open the files. Works while a case runs.
 
-Exit codes:
-    0  all well
-    2  the input is wrong, or there are no frames
-    3  something is missing, for example disk space
-
 Example:
   vibrotrough export runs/demo)");
     command->callback([options, &exit_code] { exit_code = run_export(*options); });

@@ -1,16 +1,14 @@
+#include "app/campaign_run.hpp"
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
 #include "app/extra_lines.hpp"
-#include "app/progress_printer.hpp"
-#include "campaign/execute/campaign_driver.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/friction_results.hpp"
 #include "campaign/state/overview.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/parallel.hpp"
 #include "core/shell.hpp"
 #include "scenario/reader/shake_test.hpp"
 
@@ -29,12 +27,8 @@ namespace fs = std::filesystem;
 
 struct FrictionTestArguments {
     std::string campaign_file;
-    std::string output;
-    std::string engine;
     std::optional<double> machine_number;
-    bool accept_failed_probes = false;
-    bool allow_extra = false;
-    int jobs = core::count_available_cores();
+    StudyOptions study;
 };
 
 void print(evaluate::LayerFriction const& test) {
@@ -55,20 +49,11 @@ void print(evaluate::LayerFriction const& test) {
     fmt::print("\n");
 }
 
-int exit_code_of(campaign::Summary const& summary, std::vector<evaluate::LayerFriction> const& tests) {
-    if (summary.interrupted) return interrupted;
-    bool const all = std::ranges::all_of(tests, [](auto const& test) { return test.friction.has_value(); });
-    return all ? all_well : some_cases_failed;
-}
-
 int run_friction_test(FrictionTestArguments const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
-    check_extra_lines(options.campaign_file, campaign.cases, options.allow_extra);
-    std::optional<fs::path> const program =
-        options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
-    engine::Engine engine = engine::find_engine(program);
-    fs::path const folder =
-        options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
+    check_extra_lines(options.campaign_file, campaign.cases, options.study.allow_extra);
+    engine::Engine engine = engine_at(options.study.engine);
+    fs::path const folder = results_folder(options.study.output, campaign.name);
     fs::path const test_folder = folder / "friction-test";
     double friction = 0;
     for (scenario::Scenario const& one : campaign.cases)
@@ -77,7 +62,7 @@ int run_friction_test(FrictionTestArguments const& options) {
 
     core::make_folder(folder);
     core::make_folder(test_folder);
-    if (!certify(engine, options.accept_failed_probes)) return interrupted;
+    if (!certify(engine, options.study.accept_failed_probes)) return interrupted;
     fs::path const test_file = test_folder / "shake-test.toml";
     for (scenario::Scenario const& one : campaign.cases) campaign::write_named_files(one, test_folder);
     for (fs::path const& file : campaign.files)
@@ -85,15 +70,7 @@ int run_friction_test(FrictionTestArguments const& options) {
     core::write_file_atomically(test_file, scenario::shake_test_campaign(options.campaign_file, k));
     campaign::Plan plan =
         campaign::make_plan(scenario::read_campaign(test_file), test_folder, engine.version);
-    campaign::Summary summary;
-    {
-        ProgressPrinter printer;
-        summary = campaign::run_campaign(
-            plan, test_file, *campaign::make_policy(), campaign::executor_kind("local"),
-            {test_folder, engine, campaign.run, options.jobs, {}, {options.allow_extra}},
-            campaign::Until::done, printer);
-    }
-    campaign::write_campaign_file(plan);
+    campaign::Summary const summary = run_study(options.study, engine, plan, test_file, campaign.run);
     auto const tests = campaign::measure_friction(plan);
     for (evaluate::LayerFriction const& test : tests) print(test);
     if (summary.interrupted) {
@@ -103,7 +80,8 @@ int run_friction_test(FrictionTestArguments const& options) {
     campaign::write_friction(folder, tests);
     fmt::print("written to {}; 'vibrotrough compare {}' now also shows the theory at this friction\n",
                campaign::friction_file(folder).string(), core::shell_word(folder));
-    return exit_code_of(summary, tests);
+    bool const all = std::ranges::all_of(tests, [](auto const& test) { return test.friction.has_value(); });
+    return all ? all_well : some_cases_failed;
 }
 
 }  // namespace
@@ -119,12 +97,6 @@ trough, because grains roll and layers shear.)");
     add_campaign_file(*command, options->campaign_file);
     command
         ->add_option(
-            "--output", options->output,
-            "Folder of the campaign's results; default runs/<name>. The test is a separate campaign in "
-            "DIR/friction-test")
-        ->type_name("DIR");
-    command
-        ->add_option(
             "--machine-number", options->machine_number,
             "K = omega^2 r / g of the shaking. The layer must slide both ways without resting, which needs "
             "K > mu sqrt(1 + pi^2 / 4) = 1.862 mu; the closer K is to that, the more precise the result. "
@@ -132,25 +104,13 @@ trough, because grains roll and layers shear.)");
             "that is more")
         ->check(CLI::Range(1e-3, 1e3))
         ->type_name("K");
-    command->add_option("--jobs", options->jobs, "Engines that run at a time")
-        ->check(CLI::Range(1, 4096))
-        ->capture_default_str();
-    add_engine(*command, options->engine);
-    command->add_flag("--accept-failed-probes", options->accept_failed_probes, accept_failed_probes_help);
-    add_allow_extra(*command, options->allow_extra);
+    options->study.add_to(*command);
     command->footer(
-        R"(Prints one line per layer: how far it slides relative to the trough (from peak to peak, in amplitudes
+        R"(The test is a separate campaign in DIR/friction-test. Prints one line per layer: how far it slides relative to the trough (from peak to peak, in amplitudes
 r), its friction coefficient with an interval, and its mode. The numbers are also written to DIR/friction.json, and 'vibrotrough compare DIR' then
 shows the theory with this friction too. Cases with the same grains, layer and trough surface share one test.
 
 Ctrl-C stops the run cleanly, and the same command continues it.
-
-Exit codes:
-    0  the friction of every layer was measured
-    1  the friction of some layers could not be measured; the reason is printed
-    2  the input is wrong
-    3  something is missing: no liggghts, one that failed its probes, or no disk space
-  130  interrupted
 
 Example:
   vibrotrough friction-test validation/demo/campaign.toml --output runs/demo --jobs 2)");

@@ -91,11 +91,6 @@ void add_init(CLI::App& program, int& exit_code) {
 
 An existing file is never overwritten.
 
-Exit codes:
-    0  all well
-    2  the input is wrong, for example because the file exists already
-    3  something is missing, for example disk space
-
 Example:
   vibrotrough init pellets --output my_trough.toml)");
     command->callback([options, &exit_code] { exit_code = run_init(*options); });

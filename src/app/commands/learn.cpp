@@ -1,5 +1,5 @@
 #include "app/commands.hpp"
-#include "app/commands/theory/options.hpp"
+#include "app/commands/option_table.hpp"
 #include "app/exit_code.hpp"
 #include "app/learning.hpp"
 #include "app/progress_log.hpp"
@@ -20,15 +20,15 @@ namespace {
 
 struct LearnArguments {
     RunOptions shared;
-    Text half_width, budget, batch;
+    QuantityOptions quantities;
+    Text budget;
 };
 
 learn::LearnGoal read_goal(LearnArguments const& options) {
     learn::LearnGoal goal{};
-    goal.half_width = read_number_within("--half-width", required("--half-width", options.half_width, "0.03"),
-                                         "0.03", 1e-4, 1);
+    goal.half_width = options.quantities.required("--half-width");
     goal.budget = read_core_time(required("--budget", options.budget, "\"4 core-hours\""));
-    if (options.batch) goal.batch = read_count("--batch", *options.batch, "8", 1, 1000);
+    if (auto const batch = options.quantities.value("--batch")) goal.batch = static_cast<int>(*batch);
     return goal;
 }
 
@@ -103,7 +103,7 @@ int run_learn(LearnArguments const& options) {
     ReadyCampaign ready = prepare_run(options.shared);
     if (ready.is_interrupted) return interrupted;
     auto wanted = learn::read_wanted_half_widths(ready.plan.folder);
-    if (!options.batch) goal.batch = usual_batch(options.shared.jobs, ready.plan);
+    if (!options.quantities.has("--batch")) goal.batch = usual_batch(options.shared.jobs, ready.plan);
     scenario::CaseMaker const maker(options.shared.campaign_file);
     keep_known_cases(ready.plan, maker, wanted);
     Whole const whole{goal.half_width, learn::campaign_points(ready.plan, maker).numerics};
@@ -142,14 +142,9 @@ void add_learn(CLI::App& program, int& exit_code) {
     CLI::App* const command = program.add_subcommand(
         "learn", "Learn the velocity efficiency over a domain with the least core-hours");
     options->shared.add_to(*command);
-    command->add_option("--half-width", options->half_width,
-                        "Largest half-width of the 95 % interval wanted anywhere in the domain, statistics "
-                        "and numerical errors "
-                        "together, for example 0.05");
+    options->quantities.add_to(*command, {{"--half-width"}, {"--batch"}});
     command->add_option("--budget", options->budget,
                         "Core time of all simulations together, for example \"4 core-hours\"");
-    command->add_option("--batch", options->batch,
-                        "Cases that are chosen at once; default: as many as keep all jobs busy");
     command->footer(
         R"(The section [domain] of the campaign file gives the ranges of the inputs. A few cases that fill the domain are
 simulated first. Then a surface is fitted (see 'vibrotrough predict --help'), and each further batch is chosen so that
@@ -162,13 +157,6 @@ latter leave of it is what the statistics are learnt to.
 
 Each step prints the worst place, Q2, how many left-out points are covered, the core time so far and an estimate of
 what is to go. Ctrl-C stops cleanly, and the same command continues.
-
-Exit codes:
-    0  the surface is as precise as asked, and nothing speaks against it
-    1  it is not, or something speaks against it; the results are kept
-    2  the input is wrong
-    3  something is missing: no liggghts, one that failed its probes, or no disk space
-  130  interrupted
 
 Example:
   vibrotrough learn domain.toml --half-width 0.05 --budget "4 core-hours" --output runs/domain)");

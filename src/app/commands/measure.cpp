@@ -172,11 +172,6 @@ wrote; what it is divided by (amplitude, frequency, angles) is always the scenar
 
 The interval is that of the campaign: with several packings it allows for their differences, with one it cannot.
 
-Exit codes:
-    0  the run is steady, and its interval as narrow as measure.half_width asks
-    1  it is not, or a campaign would not count the run
-    2  a file is missing or damaged
-
 Example:
   vibrotrough measure decks/case-001/packing-1
 

@@ -151,12 +151,6 @@ over packings and its interval as those of the efficiency. "drifting" means that
 folder, with the text of your file, and from there in campaign.h5, 'compare' and 'archive'. It is left aside when the
 result of a case changes: give the command again.
 
-Exit codes:
-    0  all well
-    2  the input is wrong: the file is not allowed, a function failed or returned what is no
-       number, or no packing has what it needs
-    3  something is missing: Python with its modules, or disk space
-
 Examples:
   vibrotrough observe runs/demo
   vibrotrough observe --examples > my_observables.py

@@ -182,11 +182,6 @@ With a design, machine A is the proposed one, and machine B the second best of s
 that of the second file, for example the proposal of another model. The required mass flow is a line, and what the design says of
 each machine stands beside the answer of the page.
 
-Exit codes:
-    0  the file is written
-    2  the input is wrong
-    3  the page was not built, because emscripten was missing
-
 Examples:
   vibrotrough page
   vibrotrough page runs/demo --output demo.html

@@ -2,27 +2,19 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 
-#include <memory>
-#include <string>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace vibrotrough::app {
 
 void add_manual(CLI::App& program, int& exit_code) {
-    CLI::App* const command = program.add_subcommand("manual", "Print the manual page");
-    auto const markdown = std::make_shared<bool>(false);
-    command->add_flag("--markdown", *markdown,
-                      "Print it in Markdown instead, as the page src/app/commands.md");
-    command->footer(
-        R"(The page is in the language of man(7) and describes all commands and options. An installed program has it already:
-'man vibrotrough'.
-
-Example:
-  vibrotrough manual | man --local-file -)");
-    command->callback([&program, &exit_code, markdown] {
-        fmt::print("{}", *markdown ? command_reference(program) : manual_page(program));
+    CLI::App* const command =
+        program.add_subcommand("manual", "Print all commands with their options and help");
+    command->add_flag("--markdown")
+        ->description("In Markdown, as the page src/app/commands.md; there is no other form");
+    command->footer("Example:\n  vibrotrough manual | less");
+    command->callback([&program, &exit_code] {
+        fmt::print("{}", command_reference(program));
         exit_code = all_well;
     });
 }

@@ -1,5 +1,6 @@
 #include "campaign/state/plan.hpp"
 
+#include "app/campaign_run.hpp"
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
@@ -169,8 +170,7 @@ void print_text(PlanView const& view) {
 int run_plan(PlanArguments const& options) {
     scenario::Campaign campaign = scenario::read_campaign(options.campaign_file);
     use_templates(options.templates, campaign.cases);
-    fs::path const folder =
-        options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
+    fs::path const folder = results_folder(options.output, campaign.name);
     campaign::Plan const plan = campaign::make_plan(campaign, folder, engine_version(options, folder));
     campaign.cases = {};  // the plan has its own
     auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder), {}, campaign::Trust::stamp);
@@ -201,11 +201,6 @@ that have a result.
 
 Nothing is simulated, and no file is written. Only the version of the engine is read, because the ids of the cases
 depend on it.
-
-Exit codes:
-    0  all well
-    2  the input is wrong
-    3  something is missing, for example liggghts
 
 Example:
   vibrotrough plan validation/demo/campaign.toml --output runs/demo)");

@@ -279,11 +279,6 @@ figure, down to 7 points, and PNG has 300 dots per inch. A figure with panels be
 Matter (Springer); Elsevier's are 90 mm and 190 mm. A style sheet can name programs that matplotlib starts, such as LaTeX
 (text.usetex): use your own.
 
-Exit codes:
-    0  all well
-    2  the input is wrong, or no case is finished yet
-    3  something is missing: Python with its modules, or disk space
-
 Example:
   vibrotrough plot runs/demo
   vibrotrough plot runs/demo --format pdf --width one-column --only efficiency --output figures
@@ -300,11 +295,6 @@ void add_report(CLI::App& program, int& exit_code) {
         R"(Writes DIR/report/report.html and the figures beside it. The page is complete in itself and needs no
 network. A click on a column's heading sorts the table. The command works while the campaign runs; give it again to
 update the page.
-
-Exit codes:
-    0  all well
-    2  the input is wrong
-    3  something is missing: Python with its modules, or disk space
 
 Example:
   vibrotrough report runs/demo)");

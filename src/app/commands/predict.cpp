@@ -296,10 +296,6 @@ of the surface, and a place near them is marked.
 A key may be written without its section where no other varied key has the same name. Quantities have units as in the
 campaign file; bare numbers are SI.
 
-Exit codes:
-    0  all well
-    2  the input is wrong, or too few cases have a result
-
 Examples:
   vibrotrough predict campaign.toml
   vibrotrough predict runs/demo --at throw_number=1.9)");

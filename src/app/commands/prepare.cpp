@@ -55,15 +55,9 @@ int run_prepare(PrepareArguments const& options) {
     fs::path const list = options.task_list;
     clear_list(list);
     ready.inputs.task_list = list;
-    campaign::Summary summary;
-    {
-        auto const shown = options.shared.make_observer();
-        LoggingObserver observer(*shown, ready.plan.folder);
-        summary = campaign::run_campaign(ready.plan, options.shared.campaign_file, *campaign::make_policy(),
-                                         campaign::executor_kind("task-list"), ready.inputs,
-                                         campaign::Until::submitted, observer);
-    }
-    campaign::write_campaign_file(ready.plan);
+    campaign::Summary const summary =
+        drive_campaign(options.shared, ready, *campaign::make_policy(), campaign::Until::submitted,
+                       campaign::executor_kind("task-list"));
     int const ended = summary.finished + summary.unsure + summary.failed;
     fmt::print("{} of {} cases have ended", ended, ready.plan.cases.size());
     if (!summary.references.empty()) fmt::print("; {}", fmt::join(summary.references, "; "));
@@ -104,12 +98,6 @@ any scheduler can start, on any machine that sees the folder: LSF, HTCondor, GNU
 rounds, because the results decide which packings are needed next: call this command again when the tasks have ended,
 until the list is empty. Packings that a task simulates at that moment are left out. src/campaign/README.md has job
 scripts for several schedulers.
-
-Exit codes:
-    0  the list is written; it is empty when nothing is missing
-    2  the input is wrong
-    3  something is missing: no liggghts, one that failed its probes, or no disk space
-  130  interrupted
 
 Example:
   vibrotrough prepare validation/demo/campaign.toml --output runs/demo --task-list tasks.txt

@@ -93,14 +93,8 @@ int run_run(RunArguments const& options) {
     if (ready.is_interrupted) return interrupted;
     size_tasks(ready, ready.campaign.run.batch(ready.campaign.run.executor).minutes_per_task);
     auto const until = options.wait ? campaign::Until::done : campaign::Until::submitted;
-    campaign::Summary summary;
-    {
-        auto const shown = options.shared.make_observer();
-        LoggingObserver observer(*shown, ready.plan.folder);
-        summary = campaign::run_campaign(ready.plan, options.shared.campaign_file, *campaign::make_policy(),
-                                         *ready.kind, ready.inputs, until, observer);
-    }
-    campaign::write_campaign_file(ready.plan);
+    campaign::Summary const summary =
+        drive_campaign(options.shared, ready, *campaign::make_policy(), until, *ready.kind);
     return report(summary, ready.plan, *ready.kind, until);
 }
 
@@ -131,13 +125,6 @@ is as clean.
 With the executor of a cluster under [run] in the campaign file, the next packings of each case are submitted as job arrays
 and the command returns. Call it again when they have ended, until it submits nothing more. With --wait it stays and
 submits further packings by itself. It also finds tasks that died and submits them again.
-
-Exit codes:
-    0  all cases are finished
-    1  some cases failed, or are not precise, not steady, or bistable or slow
-    2  the input is wrong
-    3  something is missing: no liggghts, one that failed its probes, or no disk space
-  130  interrupted
 
 Example:
   vibrotrough run validation/demo/campaign.toml --output runs/demo --jobs 2)");

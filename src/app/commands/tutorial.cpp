@@ -75,11 +75,6 @@ void add_tutorial(CLI::App& program, int& exit_code) {
 
 Without --output the page is printed. An existing file is never overwritten.
 
-Exit codes:
-    0  all well
-    2  the input is wrong
-    3  something is missing, for example disk space
-
 Examples:
   vibrotrough tutorial depth | less
   vibrotrough tutorial design --output walk)");

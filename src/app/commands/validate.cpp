@@ -85,14 +85,6 @@ void add_validate(CLI::App& program, int& exit_code) {
         R"(A validation case passes when all its criteria are met. Each has a negative control: a deliberate
 error that its criteria must detect.
 
-Exit codes:
-    0  every validation case passed, and the error of every negative control was detected
-    1  a validation case did not pass, the error of a negative control was not detected, or a page
-       differs from its table
-    2  the input is wrong
-    3  something is missing: Python with its modules, the engine, or disk space
-  130  interrupted
-
 Example:
   vibrotrough validate theory_table_1 theory_exact --verbose)");
     command->callback([options, &exit_code] {

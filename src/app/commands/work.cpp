@@ -78,13 +78,6 @@ void add_work(CLI::App& program, int& exit_code) {
 packing is simulated by one of them, and the process that ends the last packing of a case writes the result of the case.
 A task with several packings simulates them one after the other; what is finished stays finished when it dies.
 
-Exit codes:
-    0  all packings are finished, or other processes are working on them
-    1  a packing failed; failure.json in the folder of its case gives the reason
-    2  the input is wrong, for example because the list has no such task
-    3  something is missing: the engine that the campaign was planned with, or disk space
-  130  interrupted
-
 Example:
   vibrotrough work runs/demo --task-list runs/demo/tasks.txt --index 0)");
     command->callback([options, &exit_code] { exit_code = run_work(*options); });

@@ -29,13 +29,6 @@ void complete_packings(MeasurementPlan& plan, GivenKeys const& given) {
 /// A block represents the point mass of the theory. It has one size and no shape, and because nothing about
 /// it is random, one packing is enough.
 void complete_block(Scenario& scenario, GivenKeys const& given) {
-    if (is_clump(scenario.grains))
-        given.fail("layer.block", "grains.shape is given, but a block has a shape of its own",
-                   "remove shape");
-    if (size_classes(scenario.grains).size() > 1) {
-        given.fail("layer.block", "the grains have several diameters, but a block has only one",
-                   "write diameter_spread = 0, or leave it out");
-    }
     double const needed = 8 * scenario.grains.diameter;
     if (scenario.layer.block == Block::plate &&
         std::min(scenario.layer.length, scenario.layer.width) < needed) {
@@ -49,33 +42,13 @@ void complete_block(Scenario& scenario, GivenKeys const& given) {
     scenario.measure.packings = scenario.measure.max_packings = 1;
 }
 
-void check_block_contact(Scenario const& scenario, GivenKeys const& given) {
-    if (scenario.layer.block == Block::none) return;
-    if (scenario.engine.contact != ContactModel::hertz)
-        given.fail("engine.contact", "a block has a contact of its own", "remove contact or block");
-    if (scenario.engine.cohesion > 0)
-        given.fail("engine.cohesion", "a block has a contact of its own, without attraction",
-                   "remove cohesion or block");
-}
-
 void check_frames(Scenario const& scenario, GivenKeys const& given) {
-    OutputPlan const& plan = scenario.output;
-    bool const lists = given.has("output.frame_packings");
-    if ((lists || plan.contacts) && plan.frames_per_cycle == 0)
-        given.fail(lists ? "output.frame_packings" : "output.contacts",
-                   "there are no frames, because frames_per_cycle is 0",
-                   "write frames_per_cycle = 20, or remove this key");
-    std::vector<int> const& packings = plan.frame_packings;
+    std::vector<int> const& packings = scenario.output.frame_packings;
     int const most = scenario.measure.max_packings;
-    if (lists && !packings.empty() && packings.back() > most)
+    if (given.has("output.frame_packings") && !packings.empty() && packings.back() > most)
         given.fail("output.frame_packings",
                    fmt::format("there is no packing {}, because there are at most {}", packings.back(), most),
                    "name fewer, or raise measure.max_packings");
-    if (plan.contacts && (scenario.layer.block != Block::none || is_clump(scenario.grains)))
-        given.fail("output.contacts",
-                   fmt::format("contacts are written only for layers of spheres, and {} is given",
-                               is_clump(scenario.grains) ? "grains.shape" : "layer.block"),
-                   "leave one of the two out");
 }
 
 /// A case with the given values and the defaults of the other keys.
@@ -83,9 +56,9 @@ Scenario with_values(CaseValues const& values, std::string const& file, FileSour
     Scenario scenario{};
     for (Key const& key : all_keys()) {
         if (auto const given = values.find(key.path); given != values.end()) {
-            key.access.set(scenario, {key, given->second.content, {file, given->second.where}, source});
+            key.set(scenario, {key, given->second.content, {file, given->second.where}, source});
         } else if (auto const* number = std::get_if<double>(&key.if_missing)) {
-            key.access.set(scenario, {key, Content(*number), {file, {}}, source});
+            key.set(scenario, {key, Content(*number), {file, {}}, source});
         }
     }
     return scenario;
@@ -94,17 +67,19 @@ Scenario with_values(CaseValues const& values, std::string const& file, FileSour
 }  // namespace
 
 void throw_at(FilePosition position, std::string_view key, std::string_view wrong, std::string_view instead) {
-    throw core::InputError(fmt::format("{}:{}:{}: {}: {}; {}", position.file, position.where.line,
-                                       position.where.column, key, wrong, instead));
+    std::string const place = position.file.empty() ? ""
+                                                    : fmt::format("{}:{}:{}: ", position.file,
+                                                                  position.where.line, position.where.column);
+    throw core::InputError(fmt::format("{}{}: {}; {}", place, key, wrong, instead));
 }
 
 Scenario make_scenario(CaseValues const& values, std::string const& file, FileSource const& source) {
     GivenKeys const given(values, file);
     Scenario scenario = with_values(values, file, source);
+    check_pairs(scenario, given);
     complete_trough(scenario, given);
     complete_grains(scenario, given);
     complete_packings(scenario.measure, given);
-    check_block_contact(scenario, given);
     complete_materials(scenario, given);
     complete_stages(scenario, given);
     complete_screen(scenario, given);

@@ -21,7 +21,7 @@ struct Position {
 
 /// A position and the file in which it is.
 struct FilePosition {
-    std::string_view file;  ///< name for errors
+    std::string_view file;  ///< name for errors; empty of a value that stands in no file
     Position where;         ///< in that file
 };
 

@@ -45,10 +45,7 @@ class DesignReader {
     }
 
     Key const& varied_key(std::string_view path, toml::source_region const& source) const {
-        constexpr std::string_view advice = "vary a physical input";
-        Key const& key = known_key(path, {file_, position_of(source)}, advice);
-        if (!can_vary(key)) fail(source, path, "this key cannot be varied", advice);
-        return key;
+        return scenario::varied_key(path, {file_, position_of(source)});
     }
 
     void add(PointList list) {
@@ -285,20 +282,18 @@ void read_design_section(std::string_view name, toml::node const& node, std::str
 
 void check_design(CampaignText const& campaign, std::string const& file) {
     std::vector<std::pair<std::string, Position>> seen;
-    for (Axis const& axis : campaign.sweep) seen.emplace_back(axis.key, axis.where);
-    for (PointList const& list : campaign.lists) {
-        for (std::string const& key : list.keys) {
-            for (auto const& [other, where] : seen) {
-                bool const excludes =
-                    !find_key(key)->group.empty() && find_key(key)->group == find_key(other)->group;
-                if (key != other && !excludes) continue;
-                throw_at({file, list.where}, key,
-                         fmt::format("{} is also varied, on line {}", other, where.line),
+    auto const add = [&](std::string const& key, Position place) {
+        std::string_view const group = find_key(key)->group;
+        for (auto const& [other, where] : seen) {
+            if (key == other || (!group.empty() && group == find_key(other)->group))
+                throw_at({file, place}, key, fmt::format("{} is also varied, on line {}", other, where.line),
                          "keep one of the two");
-            }
-            seen.emplace_back(key, list.where);
         }
-    }
+        seen.emplace_back(key, place);
+    };
+    for (Axis const& axis : campaign.sweep) add(axis.key, axis.where);
+    for (PointList const& list : campaign.lists)
+        for (std::string const& key : list.keys) add(key, list.where);
 }
 
 }  // namespace vibrotrough::scenario

@@ -6,7 +6,6 @@
 #include "scenario/reader/design_reader.hpp"
 #include "scenario/reader/run_section.hpp"
 #include "scenario/reader/swept_keys.hpp"
-#include "scenario/reader/unreadable.hpp"
 #include "scenario/reader/value_reader.hpp"
 
 #include <algorithm>
@@ -37,11 +36,11 @@ constexpr std::string_view key_advice = "see 'vibrotrough keys' for all keys";
 class CampaignFileReader {
   public:
     CampaignFileReader(std::string_view text, std::string const& file) : file_(file) {
-        std::string readable(text);
-        // A line that cannot be read is left out, so that a person sees all mistakes at once.
-        while (!parse(readable)) {
-            constexpr std::size_t most = 10;
-            if (problems_.size() == most) throw core::InputError(all_problems());
+        try {
+            root_ = toml::parse(text, file_);
+        } catch (toml::parse_error const& error) {
+            fail(position_of(error.source()), "TOML", error.description().substr(0, 300),
+                 "write key = value lines under [section] headings, and quantities in quotes");
         }
     }
 
@@ -55,24 +54,6 @@ class CampaignFileReader {
     }
 
   private:
-    /// Reads the text, or keeps what is wrong with a line and empties it.
-    /// @returns whether the text was read
-    /// @throws core::InputError with all problems when the line is not one key with its value
-    bool parse(std::string& text) {
-        try {
-            root_ = toml::parse(text, file_);
-            return true;
-        } catch (toml::parse_error const& error) {
-            Position const where = position_of(error.source());
-            auto const [begin, length] = line_at(text, where.line);
-            std::string const line = text.substr(begin, length);
-            attempt([&] { throw_unreadable({file_, where}, line, error.description()); });
-            if (!is_key_with_value(line)) throw core::InputError(all_problems());
-            text.replace(begin, length, std::string(length, ' '));
-            return false;
-        }
-    }
-
     [[noreturn]] void fail(Position where, std::string_view key, std::string_view wrong,
                            std::string_view instead) const {
         throw_at({file_, where}, key, wrong, instead);
@@ -217,7 +198,7 @@ class CampaignFileReader {
                  fmt::format("{} is not a valid name",
                              node.is_string() ? fmt::format("'{}'", name) : "a value that is not a text"),
                  fmt::format("{}: {}, beginning with a letter, a digit or '_'", write_instead(key),
-                             key.range));
+                             range_of(key)));
         }
         if (key.path == "campaign.name") result_.name = name;
         result_.base[key.path] = {name, where};
@@ -239,21 +220,7 @@ class CampaignFileReader {
     }
 
     void read_axis(std::string const& path, Position where, toml::node const& node) {
-        Key const& key = known_key(path, {file_, where}, key_advice);
-        if (key.kind == KeyKind::name) fail(where, path, "a name cannot be swept", "sweep a physical input");
-        if (key.kind == KeyKind::quantities || key.kind == KeyKind::numbers || key.kind == KeyKind::texts ||
-            key.kind == KeyKind::packings) {
-            fail(where, path, "a list cannot be swept", "sweep a key with one value");
-        }
-        if (key.kind == KeyKind::truth)
-            fail(where, path, "a choice between true and false cannot be swept", "sweep a physical input");
-        for (Axis const& other : result_.sweep) {
-            if (other.key == path) fail(where, path, "is swept twice", "keep one of the two");
-            if (!key.group.empty() && find_key(other.key)->group == key.group) {
-                fail(where, path, fmt::format("{} is also swept, and both set the {}", other.key, key.group),
-                     "keep one of the two");
-            }
-        }
+        Key const& key = varied_key(path, {file_, where});
         Axis axis{path, {}, where};
         if (auto const* list = node.as_array()) {
             for (toml::node const& value : *list) {
@@ -310,7 +277,7 @@ class CampaignFileReader {
         for (double const value : {values.front(), values.back()}) {
             if (!(value >= key.least && value <= key.most)) {
                 fail(where, key.path, fmt::format("{} is out of range", written_value(key, value)),
-                     fmt::format("stay within {}", key.range));
+                     fmt::format("stay within {}", range_of(key)));
             }
         }
         return values;

@@ -41,7 +41,7 @@ void GivenValue::fail(std::string_view wrong, std::string_view instead) const {
 void GivenValue::refuse(std::string_view text, std::string_view allowed) const {
     fail(fmt::format("'{}' is not allowed", text),
          fmt::format("{}; {}", write_instead(key_),
-                     allowed.empty() ? fmt::format("allowed: {}", key_.range) : std::string(allowed)));
+                     allowed.empty() ? fmt::format("allowed: {}", range_of(key_)) : std::string(allowed)));
 }
 
 std::string GivenKeys::text(std::string_view key, double value) const {

@@ -76,6 +76,11 @@ inline constexpr std::string_view waveform_advice =
     "without the first of the next cycle; frequency, amplitude and vibration_angle must be those of its "
     "fundamental";
 
+/// Refuses what a case cannot have together, and what is given without something that it needs.
+/// @param scenario  all keys are set
+/// @throws core::InputError
+void check_pairs(Scenario const& scenario, GivenKeys const& given);
+
 /// Works out what follows from several keys of the trough, and checks that they go together.
 /// @param scenario  all keys are set
 /// @throws core::InputError
@@ -90,10 +95,6 @@ void complete_materials(Scenario const& scenario, GivenKeys const& given);
 
 /// Works out how long the run of a drive in stages is, and checks its stages. @throws core::InputError
 void complete_stages(Scenario& scenario, GivenKeys const& given);
-
-/// Refuses the keys of [measure] that say how long a run is and how many packings there are.
-/// @param what  decides it instead: "stages" or "screen"
-void refuse_length(GivenKeys const& given, std::string_view what);
 
 /// Works out how long a batch is on a screen, and checks that the rest of the case goes with it.
 /// @throws core::InputError

@@ -44,12 +44,12 @@ constexpr std::array rows_of_grains{
     Key{"grains.mass_fractions", numbers, "", 0, 1e9, "above 0 each", "", optional, "[0.3, 0.7]",
         "shares of the listed diameters by mass, scaled so that their sum is 1",
         field<&Scenario::grains, &Grains::mass_fractions>},
-    Key{"grains.diameter_spread", number, "", 0, 0.5, "0 to 0.5", "", 0.0, "0.1",
+    Key{"grains.diameter_spread", number, "", 0, 0.5, "", "", 0.0, "0.1",
         "s, width of the size distribution, see size_law; the standard deviation of the diameters is 0.82 s "
         "of "
         "three classes, 0.58 s of a uniform and about s of a lognormal law",
         field<&Scenario::grains, &Grains::diameter_spread>.written_if(has_a_law)},
-    Key{"grains.size_law", choice, "", 0, 0, "three-classes, uniform or lognormal", "", optional,
+    Key{"grains.size_law", choice, "", 0, 0, one_of("three-classes", "uniform", "lognormal"), "", optional,
         "\"three-classes\"",
         "distribution by number; three-classes: 1-s, 1 and 1+s times d in equal shares; uniform: all "
         "diameters between 1-s and 1+s times d; lognormal: ln(d) is normal with standard deviation s",
@@ -71,20 +71,19 @@ constexpr std::array rows_of_grains{
         "stiff "
         "enough for its depth and drive, because softer grains allow a longer time step",
         field<&Scenario::grains, &Grains::youngs_modulus>},
-    Key{"grains.poisson_ratio", number, "", 0, 0.49, "0 to 0.49", "", required, "0.35",
+    Key{"grains.poisson_ratio", number, "", 0, 0.49, "", "", required, "0.35",
         "Poisson's ratio of grains and trough", field<&Scenario::grains, &Grains::poisson_ratio>},
-    Key{"grains.friction", number, "", 0, 5, "0 to 5", "", required, "0.5",
+    Key{"grains.friction", number, "", 0, 5, "", "", required, "0.5",
         "friction coefficient of grain on grain", field<&Scenario::grains, &Grains::friction>},
     Key{"grains.restitution", number, "", 0.05001, 1, "above 0.05, to 1", "", required, "0.5",
         "coefficient of restitution of grain on grain", field<&Scenario::grains, &Grains::restitution>},
-    Key{"grains.rolling_friction", number, "", 0, 5, "0 to 5", "", 0.0, "0.1",
+    Key{"grains.rolling_friction", number, "", 0, 5, "", "", 0.0, "0.1",
         "coefficient of the rolling friction model epsd2 at all contacts, for rotation = \"rolling\"",
         field<&Scenario::grains, &Grains::rolling_friction>},
-    Key{"grains.rotation", choice, "", 0, 0, "free, rolling or blocked", "", optional, "\"free\"",
+    Key{"grains.rotation", choice, "", 0, 0, one_of("free", "rolling", "blocked"), "", optional, "\"free\"",
         "free: grains rotate freely; rolling: against rolling_friction; blocked: not at all",
         field<&Scenario::grains, &Grains::rotation>},
-    Key{"grains.shape", file, "", 0, 0, "sphere, cube, rod or a .csv file in the same folder", "", optional,
-        "\"cube\"",
+    Key{"grains.shape", file, "", 0, 0, file_or(".csv", "sphere", "cube", "rod"), "", optional, "\"cube\"",
         "spheres, or rigid clumps of 8 spheres (cube), 3 spheres (rod) or the spheres of a file (columns "
         "x,y,z,radius, scaled to d)",
         KeyAccess{[](Scenario const& s) { return content_of(s.grains.shape); },
@@ -104,7 +103,7 @@ constexpr std::array rows_of_grains{
         KeyAccess{[](Scenario const& s) { return content_of(layer_height(s)); },
                   [](Scenario& s, GivenValue const& v) { s.layer.height = v.number(); }}
             .written_if([](Scenario const& s) { return s.layer.block == Block::none && s.layer.height; })},
-    Key{"layer.diameters", number, "", 1, 1000, "1 to 1000", "height of the layer", required, "8",
+    Key{"layer.diameters", number, "", 1, 1000, "", "height of the layer", required, "8",
         "height of the layer at rest in mean diameters of the grains",
         KeyAccess{[](Scenario const& s) -> std::optional<Content> {
                       if (s.layer.diameters || !s.layer.height) return content_of(s.layer.diameters);
@@ -116,7 +115,8 @@ constexpr std::array rows_of_grains{
         "number of grains", field<&Scenario::layer, &Layer::grains>.written_if([](Scenario const& s) {
             return s.layer.block == Block::none && !s.layer.height && !is_open(s);
         })},
-    Key{"layer.block", choice, "", 0, 0, "point or plate", "height of the layer", required, "\"point\"",
+    Key{"layer.block", choice, "", 0, 0, one_of("point", "plate"), "height of the layer", required,
+        "\"point\"",
         "replaces the layer by one rigid block with plastic contact: a sphere that cannot rotate (point) or "
         "a plate of nine spheres",
         field<&Scenario::layer, &Layer::block>.written_if(

@@ -70,21 +70,21 @@ template <auto... members>
 constexpr KeyAccess run_field{
     .set_run = [](RunSettings& s, GivenValue const& value) { take((s.*....*members), value); }};
 
-/// A member of one entry of a list of the case: entry_field<&Scenario::materials, 0, &AddedMaterial::name>.
-/// Setting it makes the entry.
-template <auto list, std::size_t index, auto member>
-constexpr KeyAccess entry_field{[](Scenario const& s) -> std::optional<Content> {
-                                    return (s.*list).size() > index ? content_of((s.*list)[index].*member)
-                                                                    : std::nullopt;
-                                },
-                                [](Scenario& s, GivenValue const& value) {
-                                    if ((s.*list).size() <= index) (s.*list).resize(index + 1);
-                                    take((s.*list)[index].*member, value);
-                                }};
+/// The entry of a list with this index, which is made when there is none.
+template <typename Entry>
+Entry& entry_of(std::vector<Entry>& list, std::size_t index) {
+    if (list.size() <= index) list.resize(index + 1);
+    return list[index];
+}
 
-/// The path of a key in the entry with this index, such as "materials.1.density": entries count from 1. It
-/// lasts as long as the program.
-std::string_view path_of_entry(std::string_view section, std::size_t index, std::string_view name);
+/// A member of the entries of a list of the case: entry_field<&Scenario::materials, &AddedMaterial::name>.
+template <auto list, auto member>
+constexpr KeyAccess entry_field{
+    .get_entry = [](Scenario const& s, std::size_t i) -> std::optional<Content> {
+        return (s.*list).size() > i ? content_of((s.*list)[i].*member) : std::nullopt;
+    },
+    .set_entry = [](Scenario& s, std::size_t i,
+                    GivenValue const& value) { take(entry_of(s.*list, i).*member, value); }};
 
 /// The condition of a key that to_toml() never writes, because another key of its group says the same.
 inline bool never(Scenario const&) {
@@ -112,8 +112,9 @@ std::shared_ptr<File const> read_once(std::map<std::string, std::shared_ptr<File
 /// The rows of the table by the sections that they describe.
 std::span<Key const> trough_keys();
 std::span<Key const> grains_keys();    ///< [grains], [layer], [feed] and [screen]
-std::span<Key const> material_keys();  ///< [[materials]] and [[pairs]], one row for each entry of a list
-std::span<Key const> stage_keys();     ///< [[stages]], one row for each entry
+std::span<Key const> material_keys();  ///< of an entry of [[materials]]: the path is the name alone
+std::span<Key const> pair_keys();      ///< of an entry of [[pairs]], likewise
+std::span<Key const> stage_keys();     ///< of an entry of [[stages]], likewise
 std::span<Key const> plan_keys();      ///< [measure], [output], [solver] and [engine]
 
 }  // namespace vibrotrough::scenario

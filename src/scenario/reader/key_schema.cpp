@@ -43,7 +43,7 @@ Json value_schema(Key const& key) {
 }
 
 Json explained(Key const& key, Json schema) {
-    schema["description"] = fmt::format("{}; {}", key.meaning, key.range);
+    schema["description"] = fmt::format("{}; {}", key.meaning, range_of(key));
     schema["examples"] = Json::array({Json::parse(key.example)});
     return schema;
 }

@@ -11,16 +11,34 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::scenario {
 namespace {
+
+/// Adds the rows of a list, once for each entry that it may have.
+void add_entries(std::vector<Key>& all, std::string_view section, std::span<Key const> rows) {
+    static std::deque<std::string> paths;  // a deque, so that earlier paths stay where they are
+    for (std::size_t entry = 0; entry < most_entries(section); ++entry) {
+        for (Key key : rows) {
+            key.path = paths.emplace_back(path_of_entry(section, entry, key.path));
+            key.entry = entry;
+            all.push_back(key);
+        }
+    }
+}
 
 /// All rows that describe cases, in one list.
 std::vector<Key> const& table() {
     static std::vector<Key> const rows = [] {
         std::vector<Key> all;
-        for (auto const part : {trough_keys(), grains_keys(), material_keys(), stage_keys(), plan_keys()})
-            all.insert(all.end(), part.begin(), part.end());
+        auto const add = [&](std::span<Key const> part) { all.insert(all.end(), part.begin(), part.end()); };
+        add(trough_keys());
+        add(grains_keys());
+        add_entries(all, materials_section, material_keys());
+        add_entries(all, pairs_section, pair_keys());
+        add_entries(all, stages_section, stage_keys());
+        add(plan_keys());
         return all;
     }();
     return rows;
@@ -69,9 +87,8 @@ std::size_t most_entries(std::string_view section) {
     return section == stages_section ? most_stages : 0;
 }
 
-std::string_view path_of_entry(std::string_view section, std::size_t index, std::string_view name) {
-    static std::deque<std::string> paths;  // a deque, so that earlier paths stay where they are
-    return paths.emplace_back(fmt::format("{}.{}.{}", section, index + 1, name));
+std::string path_of_entry(std::string_view section, std::size_t index, std::string_view name) {
+    return fmt::format("{}.{}.{}", section, index + 1, name);
 }
 
 std::string_view last_name(std::string_view path) {
@@ -88,18 +105,26 @@ std::string default_text(Key const& key) {
         return fmt::format("{:g}", *value);
     }
     // A file that need not be given has a word for what holds without it, or is simply not there.
-    bool const has_word = has_words(key) && !key.range.starts_with("a ");
-    return has_word ? std::string(choices(key).front()) : "none";
+    auto const words = choices(key);
+    return words.empty() ? "none" : std::string(words.front());
 }
 
 std::vector<std::string_view> choices(Key const& key) {
-    std::vector<std::string_view> words;
-    for (std::string_view rest = key.range; !rest.empty();) {
-        std::size_t const end = std::min({rest.find(", "), rest.find(" or "), rest.size()});
-        words.push_back(rest.substr(0, end));
-        rest.remove_prefix(std::min(rest.size(), end + (rest.substr(end).starts_with(", ") ? 2 : 4)));
-    }
-    return words;
+    auto const& words = key.allowed.choices;
+    return {words.begin(), std::ranges::find(words, "")};
+}
+
+std::string range_of(Key const& key) {
+    if (!key.allowed.words.empty()) return std::string(key.allowed.words);
+    std::vector<std::string> all;
+    for (std::string_view const word : choices(key)) all.emplace_back(word);
+    if (!key.allowed.ending.empty())
+        all.push_back(fmt::format("a {} file in the same folder{}", key.allowed.ending,
+                                  key.kind == KeyKind::files ? ", or a list of at most 30" : ""));
+    if (all.empty()) return fmt::format("{:g} to {:g}", key.least, key.most);
+    std::string const last = all.back();
+    all.pop_back();
+    return all.empty() ? last : fmt::format("{} or {}", fmt::join(all, ", "), last);
 }
 
 std::string key_reference() {
@@ -116,7 +141,7 @@ std::string key_reference() {
         if (is_further_entry) continue;
         std::string needed = is_optional(key) ? default_text(key) : "required";
         if (!key.group.empty()) needed = "exactly one of these";
-        text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key.path, key.example, key.range, needed,
+        text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key.path, key.example, range_of(key), needed,
                             key.meaning);
     }
     return text;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,8 +24,8 @@ enum class KeyKind {
     quantity,    ///< a text with a number and a unit
     number,      ///< a plain number
     integer,     ///< a plain whole number
-    choice,      ///< one of the words in `range`
-    file,        ///< a word in `range`, or the name of a file in the folder of the campaign file
+    choice,      ///< one of some words
+    file,        ///< the name of a file in the folder of the campaign file, or one of some words
     files,       ///< the name of a file in the folder of the campaign file, or a list of such names
     quantities,  ///< a list of quantities
     numbers,     ///< a list of plain numbers
@@ -38,6 +39,31 @@ enum class KeyNeed {
     required,  ///< a case is incomplete without it, or without another key of its group
     optional,  ///< it may be left out; choices then take their first word, other keys have no value
 };
+
+/// The values that a key may have.
+struct Allowed {
+    std::string_view words = {};                   ///< what the limits do not say; empty where they say it
+    std::array<std::string_view, 3> choices = {};  ///< words that may be written; empty behind the last one
+    std::string_view ending = {};  ///< of the names of files; empty where no file may be named
+
+    /// In words: "0 to 5" of a number needs none.
+    constexpr Allowed(char const* in_words) : words(in_words) {}  // NOLINT(google-explicit-constructor)
+    /// These words only, or these words and files with this ending.
+    constexpr explicit Allowed(std::array<std::string_view, 3> one_of, std::string_view file_ending = {})
+        : choices(one_of), ending(file_ending) {}
+};
+
+/// One of these words.
+template <typename... Words>
+constexpr Allowed one_of(Words... words) {
+    return Allowed(std::array<std::string_view, 3>{words...});
+}
+
+/// The name of a file with this ending in the folder of the campaign file, or one of these words.
+template <typename... Words>
+constexpr Allowed file_or(std::string_view ending, Words... words) {
+    return Allowed(std::array<std::string_view, 3>{words...}, ending);
+}
 
 /// What holds when a key is not given: its default value in SI units, or whether it is needed.
 using IfMissing = std::variant<KeyNeed, double>;
@@ -57,11 +83,23 @@ struct KeyAccess {
     bool is_left_out_by_default = false;
     /// Puts a given value into the settings of a run, for keys of [run]. The others have get() and set().
     void (*set_run)(RunSettings&, GivenValue const&) = nullptr;
+    /// In place of get() and set() of keys of a list such as [[stages]]: they are told which entry it is,
+    /// from 0. Setting a value makes the entry.
+    std::optional<Content> (*get_entry)(Scenario const&, std::size_t entry) = nullptr;
+    void (*set_entry)(Scenario&, std::size_t entry, GivenValue const&) = nullptr;  ///< likewise
 
     /// The same for a key that to_toml() writes only under a condition.
-    constexpr KeyAccess written_if(bool (*condition)(Scenario const&)) const { return {get, set, condition}; }
+    constexpr KeyAccess written_if(bool (*condition)(Scenario const&)) const {
+        KeyAccess access = *this;
+        access.is_written = condition;
+        return access;
+    }
     /// The same for a key that to_toml() writes only with another value than the default.
-    constexpr KeyAccess unless_default() const { return {get, set, is_written, true}; }
+    constexpr KeyAccess unless_default() const {
+        KeyAccess access = *this;
+        access.is_left_out_by_default = true;
+        return access;
+    }
 };
 
 /// One key of the campaign file: what it means, how it is written, what is allowed, and where its value is in
@@ -73,12 +111,22 @@ struct Key {
     std::string_view unit;     ///< SI unit of a quantity, for udunits2; empty otherwise
     double least;              ///< smallest allowed value, in `unit`
     double most;               ///< largest allowed value, in `unit`
-    std::string_view range;    ///< the allowed values in words; for a choice, the words themselves
+    Allowed allowed;           ///< what else than the limits holds
     std::string_view group;    ///< keys with the same group exclude each other; exactly one is needed
     IfMissing if_missing;      ///< for a key without group; keys in a group are `required`
     std::string_view example;  ///< what to write to the right of the equals sign
     std::string_view meaning;  ///< its description in the reference
     KeyAccess access;          ///< how its value is read and written
+    std::size_t entry = 0;     ///< of a key of a list: which of its entries it belongs to, from 0
+
+    /// What a case has for it, see KeyAccess::get.
+    std::optional<Content> get(Scenario const& scenario) const {
+        return access.get_entry != nullptr ? access.get_entry(scenario, entry) : access.get(scenario);
+    }
+    /// Puts a value into a case.
+    void set(Scenario& scenario, GivenValue const& value) const {
+        access.set_entry != nullptr ? access.set_entry(scenario, entry, value) : access.set(scenario, value);
+    }
 };
 
 /// Whether a case is complete without this key (if the key is not in a group).
@@ -103,7 +151,10 @@ std::string write_instead(Key const& key);
 /// keys.
 std::string default_text(Key const& key);
 
-/// The words of a choice: "a, b or c" is {a, b, c}.
+/// The allowed values in words, such as "0 to 5", "a, b or c".
+std::string range_of(Key const& key);
+
+/// The words that may be written, such as {a, b, c}.
 std::vector<std::string_view> choices(Key const& key);
 
 /// A section that is a list, [[materials]]. The keys of its entries count them from 1: "materials.2.density".
@@ -119,6 +170,9 @@ inline constexpr std::size_t most_added_materials = 3;
 inline constexpr std::size_t most_pairs = 6;
 /// How many entries [[stages]] may have.
 inline constexpr std::size_t most_stages = 16;
+
+/// The path of a key in the entry with this index, such as "materials.1.density": entries count from 1.
+std::string path_of_entry(std::string_view section, std::size_t index, std::string_view name);
 
 /// Whether a section is a list.
 bool is_list_section(std::string_view section);

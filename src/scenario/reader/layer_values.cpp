@@ -58,22 +58,15 @@ void check_periodic_mesh(Scenario const& scenario, GivenKeys const& given) {
                               given.text("layer.width", unit * mesh.mismatch_across)),
                   "make both sides the same, or put upright walls there");
     }
-    if (scenario.trough.side_wall_friction)
-        given.fail("trough.side_wall_friction", "is given together with a mesh, which has its own walls",
-                   "remove it");
 }
 
-/// An open trough has a back wall of its own and needs walls at its sides: the mesh's, or plain ones.
+/// An open trough has a back wall of its own.
 void check_open_mesh(Scenario const& scenario, GivenKeys const& given) {
-    TroughMesh const& mesh = *scenario.trough.mesh;
-    if (mesh.has_end_plates[0])
+    if (scenario.trough.mesh->has_end_plates[0])
         fail_mesh(
             scenario, given,
             "there is an upright plate in its first end, where an open trough has a back wall of its own",
             "remove it");
-    if (mesh.has_upright_sides && scenario.trough.side_wall_friction)
-        given.fail("trough.side_wall_friction", "is given together with a mesh that has walls of its own",
-                   "remove it, or the upright walls from the mesh");
 }
 
 /// The floor of a mesh need not be level.
@@ -105,9 +98,6 @@ void check_mesh(Scenario const& scenario, GivenKeys const& given) {
              "take a smaller piece of the trough or larger grains; is mesh_unit right?");
     }
     is_open(scenario) ? check_open_mesh(scenario, given) : check_periodic_mesh(scenario, given);
-    if (scenario.layer.block != Block::none)
-        given.fail("layer.block", "a block needs the flat floor, and trough.mesh is given",
-                   "remove one of the two");
 }
 
 /// The key by which the height of the layer was given.
@@ -168,19 +158,6 @@ int grains_of_feed(Scenario const& s, GivenKeys const& given) {
     return std::max(1, static_cast<int>(std::lround(count)));
 }
 
-/// What an open trough cannot have yet.
-void check_parts_of_open(Scenario const& s, GivenKeys const& given) {
-    auto const refuse = [&](bool is_given, char const* key, char const* wrong) {
-        if (is_given) given.fail(key, wrong, "remove it, or the section [feed]");
-    };
-    refuse(is_clump(s.grains), "grains.shape", "an open trough is fed with spheres");
-    refuse(s.output.contacts, "output.contacts", "contacts are not written of an open trough");
-    if (s.trough.side_wall_friction || (s.trough.mesh && s.trough.mesh->has_upright_sides)) return;
-    given.fail("feed.mass_flow",
-               "an open trough needs side walls, and there are none: it is not periodic across",
-               "write side_wall_friction below [trough], 0 for smooth walls");
-}
-
 /// The mass flow of grains per second.
 void weigh_feed(Scenario& s, GivenKeys const& given) {
     if (!s.feed.grains_per_second) return;
@@ -214,13 +191,7 @@ void check_feed_of_stages(Scenario const& s, GivenKeys const& given) {
 
 /// A trough that is fed at one end and discharged at the other.
 void complete_feed(Scenario& s, GivenKeys const& given) {
-    for (char const* key : {"feed.length", "feed.width", "feed.height"}) {
-        if (!is_open(s) && given.has(key))
-            given.fail(key, "nothing is fed, because feed.mass_flow is not given",
-                       "write mass_flow, or remove it");
-    }
     if (!is_open(s)) return check_feed_of_stages(s, given);
-    check_parts_of_open(s, given);
     weigh_feed(s, given);
     check_feed_of_stages(s, given);
     s.layer.grains = grains_of_feed(s, given);
@@ -284,12 +255,7 @@ void complete_layer(Scenario& scenario, GivenKeys const& given) {
     check_box("layer.length", layer.length, largest, given);
     check_box("layer.width", layer.width, largest, given);
     check_floor(layer, largest, given);
-    if (scenario.trough.mesh) {
-        check_mesh(scenario, given);
-    } else if (given.has("trough.mesh_unit")) {
-        given.fail("trough.mesh_unit", "is the unit of a mesh, and trough.mesh is not given",
-                   "write mesh = \"chute.stl\", or remove mesh_unit");
-    }
+    if (scenario.trough.mesh) check_mesh(scenario, given);
     if (layer.block != Block::none) layer.grains = 1;
     if (layer.diameters) layer.height = *layer.diameters * mean_diameter(scenario);
     if (layer.height) layer.grains = grains_for(*layer.height, scenario, given);

@@ -10,13 +10,9 @@
 namespace vibrotrough::scenario {
 namespace {
 
-std::string key_of(std::string_view section, std::size_t index, std::string_view name) {
-    return fmt::format("{}.{}.{}", section, index + 1, name);
-}
-
 /// The first key of an entry that is given, to which an error can point.
 std::string any_key_of(std::string_view section, std::size_t index, GivenKeys const& given) {
-    std::string const start = key_of(section, index, "");
+    std::string const start = path_of_entry(section, index, "");
     for (Key const& key : all_keys())
         if (key.path.starts_with(start) && given.has(key.path)) return std::string(key.path);
     return start + "name";
@@ -30,7 +26,7 @@ std::vector<std::string> names_of(Scenario const& s) {
 }
 
 void check_name(Scenario const& s, std::size_t index, GivenKeys const& given) {
-    std::string const key = key_of(materials_section, index, "name");
+    std::string const key = path_of_entry(materials_section, index, "name");
     std::string const& name = s.materials[index].name;
     if (name.empty())
         given.fail(any_key_of(materials_section, index, given),
@@ -115,7 +111,7 @@ void check_sizes(Scenario const& s, std::size_t index, GivenKeys const& given) {
     constexpr std::size_t most_classes = 100;
     AddedMaterial const& added = s.materials[index];
     if (added.diameter_spread && !added.diameter && s.grains.size_law == SizeLaw::listed) {
-        given.fail(key_of(materials_section, index, "diameter_spread"),
+        given.fail(path_of_entry(materials_section, index, "diameter_spread"),
                    "is given without a diameter, and the diameters of [grains] are a list",
                    "write diameter as well");
     }
@@ -125,16 +121,6 @@ void check_sizes(Scenario const& s, std::size_t index, GivenKeys const& given) {
                                most_classes),
                    "give the materials a diameter of their own, or shorten the list of [grains]");
     }
-}
-
-/// Clumps and blocks have one material: the engine's rigid bodies were tried with one template only.
-void check_spheres(Scenario const& s, GivenKeys const& given) {
-    std::string const place = any_key_of(materials_section, 0, given);
-    if (is_clump(s.grains))
-        given.fail(place, "grains.shape is given, and layers of clumps have only one material",
-                   "use spheres, or remove [[materials]]");
-    if (s.layer.block != Block::none)
-        given.fail(place, "layer.block is given, and a block has only one material", "remove one of the two");
 }
 
 }  // namespace
@@ -149,7 +135,6 @@ void complete_materials(Scenario const& s, GivenKeys const& given) {
     if (s.materials.empty()) return;
     check_sum(s, given);
     for (std::size_t i = 0; i < s.materials.size(); ++i) check_sizes(s, i, given);
-    check_spheres(s, given);
 }
 
 }  // namespace vibrotrough::scenario

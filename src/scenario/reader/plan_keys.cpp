@@ -61,11 +61,11 @@ bool has_open_length(Scenario const& s) {
 }
 
 constexpr std::array rows_of_plans{
-    Key{"measure.packings", integer, "", 1, 1000, "1 to 1000", "", 3.0, "3",
+    Key{"measure.packings", integer, "", 1, 1000, "", "", 3.0, "3",
         "least number of independent packings per case; more are added until the case's interval is narrow "
         "enough",
         field<&Scenario::measure, &MeasurementPlan::packings>},
-    Key{"measure.confidence", number, "", 0.5, 0.9999, "0.5 to 0.9999", "", 0.95, "0.95",
+    Key{"measure.confidence", number, "", 0.5, 0.9999, "", "", 0.95, "0.95",
         "confidence level of every interval", field<&Scenario::measure, &MeasurementPlan::confidence>},
     Key{"measure.half_width", number, "", 1e-5, 1, "0.00001 to 1", "", 0.05, "0.05",
         "half-width of the case's velocity efficiency that is wanted, for statistics and numerics together",
@@ -78,14 +78,14 @@ constexpr std::array rows_of_plans{
         "as "
         "the segregation of a mixture; at most measure.max_cycles",
         field<&Scenario::measure, &MeasurementPlan::min_cycles>},
-    Key{"measure.max_packings", integer, "", 1, 1000, "1 to 1000", "", 24.0, "24",
+    Key{"measure.max_packings", integer, "", 1, 1000, "", "", 24.0, "24",
         "largest number of packings per case; at least measure.packings",
         field<&Scenario::measure, &MeasurementPlan::max_packings>.written_if(has_open_length)},
     Key{"measure.max_core_time", quantity, "s", 1, 1e12, "at least 1 s", "", optional, "\"2 hours\"",
         "largest core time that one case may take: when more would be needed, it ends as not-precise",
         field<&Scenario::measure, &MeasurementPlan::max_core_time>},
 
-    Key{"output.frames_per_cycle", integer, "", 0, 1000, "0 to 1000", "", 0.0, "0",
+    Key{"output.frames_per_cycle", integer, "", 0, 1000, "", "", 0.0, "0",
         "frames per cycle that the first packing writes for ParaView; 0 writes none",
         field<&Scenario::output, &OutputPlan::frames_per_cycle>},
     Key{"output.checkpoint_cycles", integer, "", 0, 1e6, "0 to 1000000", "", 50.0, "50",
@@ -100,14 +100,14 @@ constexpr std::array rows_of_plans{
         field<&Scenario::output, &OutputPlan::contacts>.written_if(
             [](Scenario const& s) { return s.output.contacts && s.output.frames_per_cycle != 0; })},
 
-    Key{"solver.rayleigh_fraction", number, "", 0.01, 0.5, "0.01 to 0.5", "", 0.2, "0.2",
+    Key{"solver.rayleigh_fraction", number, "", 0.01, 0.5, "", "", 0.2, "0.2",
         "largest time step, as a fraction of the Rayleigh time of the smallest grain",
         field<&Scenario::solver, &SolverPlan::rayleigh_fraction>},
-    Key{"solver.block_stiffness", number, "", 30, 10000, "30 to 10000", "", 300.0, "300",
+    Key{"solver.block_stiffness", number, "", 30, 10000, "", "", 300.0, "300",
         "duration of a cycle divided by the duration of a block's contact",
         field<&Scenario::solver, &SolverPlan::block_stiffness>},
 
-    Key{"engine.contact", choice, "", 0, 0, "hertz or hooke", "", optional, "\"hooke\"",
+    Key{"engine.contact", choice, "", 0, 0, one_of("hertz", "hooke"), "", optional, "\"hooke\"",
         "normal force of the contacts; hertz: proportional to overlap^(3/2), as elasticity theory says; "
         "hooke: a linear spring as stiff as a Hertz contact in the fastest expected impact",
         field<&Scenario::engine, &EnginePlan::contact>.unless_default()},

@@ -16,13 +16,6 @@ namespace {
 
 using enum KeyNeed;
 
-/// Schedulers that users know, for which there is no executor.
-bool is_other_scheduler(std::string_view name) {
-    constexpr std::array<std::string_view, 7> others{"pbs",      "torque", "lsf",     "sge",
-                                                     "htcondor", "flux",   "parallel"};
-    return std::ranges::find(others, name) != others.end();
-}
-
 /// An amount of memory such as "2 GB" in MiB; nullopt when the text is not such an amount.
 std::optional<std::int64_t> parse_memory(std::string_view text) {
     double amount = 0;
@@ -37,17 +30,6 @@ std::optional<std::int64_t> parse_memory(std::string_view text) {
     }
     if (!(amount >= 1 && amount <= 1024e6)) return {};
     return std::llround(amount);
-}
-
-void set_executor(RunSettings& s, GivenValue const& v) {
-    if (is_other_scheduler(v.word())) {
-        v.fail(fmt::format("'{}' is not an executor", v.word()),
-               "write \"local\", and let 'vibrotrough prepare' write a list of tasks for this scheduler "
-               "(src/campaign/README.md)");
-    }
-    auto const known = choices(v.key());
-    if (std::ranges::find(known, v.word()) == known.end()) v.refuse(v.word());
-    s.executor = v.word();
 }
 
 // The keys of a scheduler's section; `section` is the member of RunSettings that holds its settings.
@@ -96,12 +78,14 @@ template <auto set>
 constexpr KeyAccess in_run{.set_run = set};
 
 constexpr std::array keys_of_run{
-    Key{"run.executor", KeyKind::choice, "", 0, 0, "local or slurm", "", optional, "\"slurm\"",
-        "what runs the packings: this machine, or job arrays of Slurm", in_run<set_executor>},
-    Key{"run.retries", KeyKind::integer, "", 0, 100, "0 to 100", "", 0.0, "2",
+    Key{"run.executor", KeyKind::choice, "", 0, 0, one_of("local", "slurm"), "", optional, "\"slurm\"",
+        "what runs the packings: this machine, or job arrays of Slurm; for another scheduler 'vibrotrough "
+        "prepare' writes a list of tasks",
+        run_field<&RunSettings::executor>},
+    Key{"run.retries", KeyKind::integer, "", 0, 100, "", "", 0.0, "2",
         "how often a packing is run again after an outcome for which the table of outcomes allows it",
         run_field<&RunSettings::retries>},
-    Key{"run.ranks", KeyKind::integer, "", 1, 1024, "1 to 1024", "", optional, "2",
+    Key{"run.ranks", KeyKind::integer, "", 1, 1024, "", "", optional, "2",
         "MPI ranks of each engine; chosen from the number of grains if not given",
         run_field<&RunSettings::ranks>},
     Key{"run.time_limit", KeyKind::quantity, "s", 1, 3e7, "1 s to 347 days", "", optional, "\"12 hours\"",
@@ -118,10 +102,10 @@ constexpr std::array keys_of_run{
         in_run<set_minutes<&RunSettings::slurm>>},
     Key{"run.slurm.memory", KeyKind::name, "", 0, 0, "1 MB to 1000000 GB", "", optional, "\"2 GB\"",
         "memory requested for a packing; 1 GB is 1024 MB", in_run<set_memory<&RunSettings::slurm>>},
-    Key{"run.slurm.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "100",
+    Key{"run.slurm.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "", "", optional, "100",
         "largest number of packings of one array that run at the same time",
         run_field<&RunSettings::slurm, &BatchSettings::concurrent_tasks>},
-    Key{"run.slurm.minutes_per_task", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "30",
+    Key{"run.slurm.minutes_per_task", KeyKind::integer, "", 1, 1e5, "", "", optional, "30",
         "several packings are simulated one after the other in one task, so that it takes about this many "
         "minutes, for sites that refuse short tasks; one packing per task if not given",
         run_field<&RunSettings::slurm, &BatchSettings::minutes_per_task>},
@@ -133,66 +117,22 @@ constexpr std::array keys_of_run{
         "lines of the shell (bash) that each task runs before the engine; 'run' shows them and refuses "
         "unless --allow-setup is given, since they can do anything",
         in_run<set_setup<&RunSettings::slurm>>},
-    Key{"run.slurm.cores_per_task", KeyKind::integer, "", 1, 1024, "1 to 1024", "", optional, "64",
+    Key{"run.slurm.cores_per_task", KeyKind::integer, "", 1, 1024, "", "", optional, "64",
         "cores of a task, which it keeps busy with as many packings as have room at once; those of one "
         "engine "
         "if not given",
         run_field<&RunSettings::slurm, &BatchSettings::cores_per_task>},
 };
 
-/// Reads the section [run].
-class RunSection {
-  public:
-    explicit RunSection(std::string const& file) : file_(file) {}
-
-    RunSettings read(toml::table const& section) {
-        for (auto const& [name, node] : section) {
-            std::string const subsection = fmt::format("run.{}.", name.str());
-            bool const has_keys = std::ranges::any_of(
-                keys_of_run, [&](Key const& key) { return key.path.starts_with(subsection); });
-            if (has_keys && node.is_table()) {
-                for (auto const& [key, value] : *node.as_table()) read_entry(subsection, key, value);
-            } else {
-                read_entry("run.", name, node);
-            }
-        }
-        return settings_;
-    }
-
-  private:
-    [[noreturn]] void fail(toml::source_region const& source, std::string_view key, std::string_view wrong,
-                           std::string_view instead) const {
-        throw_at({file_, position_of(source)}, key, wrong, instead);
-    }
-
-    void read_entry(std::string_view section, toml::key const& name, toml::node const& node) {
-        std::string const path = fmt::format("{}{}", section, name.str());
-        auto const found = std::ranges::find(keys_of_run, path, &Key::path);
-        if (found == keys_of_run.end()) {
-            std::vector<std::string_view> names;
-            for (Key const& key : keys_of_run) {
-                std::string_view const rest = key.path.substr(std::min(section.size(), key.path.size()));
-                if (key.path.starts_with(section) && rest.find('.') == rest.npos) names.push_back(rest);
-            }
-            fail(name.source(), path, "unknown key",
-                 fmt::format("the keys of this section are {}", fmt::join(names, ", ")));
-        }
-        found->access.set_run(settings_,
-                              {*found, content_of(*found, node), {file_, position_of(node.source())}, {}});
-    }
-
-    /// Words need not be those of the key's range: KeyAccess::set_run checks them.
-    Content content_of(Key const& key, toml::node const& node) const {
-        if (key.kind != KeyKind::name && key.kind != KeyKind::choice) return read_content(key, node, file_);
-        if (!node.is_string())
-            fail(node.source(), key.path, "is not a text",
-                 fmt::format("{}; allowed: {}", write_instead(key), key.range));
-        return node.value<std::string>().value_or("");
-    }
-
-    std::string const& file_;
-    RunSettings settings_;
-};
+void read_entry(std::string const& path, toml::key const& name, toml::node const& node,
+                std::string const& file, RunSettings& settings) {
+    auto const found = std::ranges::find(keys_of_run, path, &Key::path);
+    if (found == keys_of_run.end())
+        throw_at({file, position_of(name.source())}, path, "unknown key",
+                 "see 'vibrotrough keys' for all keys");
+    found->access.set_run(settings,
+                          {*found, read_content(*found, node, file), {file, position_of(node.source())}, {}});
+}
 
 }  // namespace
 
@@ -201,7 +141,19 @@ std::span<Key const> run_keys() {
 }
 
 RunSettings read_run_section(toml::table const& section, std::string const& file) {
-    return RunSection(file).read(section);
+    RunSettings settings;
+    for (auto const& [name, node] : section) {
+        std::string const path = fmt::format("run.{}", name.str());
+        bool const is_subsection = std::ranges::any_of(
+            keys_of_run, [&](Key const& key) { return key.path.starts_with(path + "."); });
+        if (!is_subsection || !node.is_table()) {
+            read_entry(path, name, node, file, settings);
+            continue;
+        }
+        for (auto const& [key, value] : *node.as_table())
+            read_entry(fmt::format("{}.{}", path, key.str()), key, value, file, settings);
+    }
+    return settings;
 }
 
 }  // namespace vibrotrough::scenario

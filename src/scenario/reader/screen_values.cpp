@@ -8,24 +8,6 @@
 namespace vibrotrough::scenario {
 namespace {
 
-/// What a screen cannot have.
-void check_parts(Scenario const& s, GivenKeys const& given) {
-    auto const refuse = [&](bool is_given, char const* key, char const* wrong) {
-        if (is_given) given.fail(key, wrong, "remove it, or the section [screen]");
-    };
-    refuse(s.trough.mesh != nullptr, "trough.mesh", "a screen is a flat floor with square holes");
-    refuse(is_batch(s) && s.trough.side_wall_friction.has_value(), "trough.side_wall_friction",
-           "a screen without a feed is periodic across and has no side walls");
-    refuse(is_clump(s.grains), "grains.shape",
-           "which clumps fall through a hole is not known; a screen needs "
-           "spheres");
-    refuse(s.layer.block != Block::none, "layer.block", "a block does not fall through a screen");
-    refuse(!s.materials.empty(), "materials.1.name", "the grains on a screen are of one material");
-    refuse(!s.stages.empty(), given.has("stages.1.time") ? "stages.1.time" : "stages.1.cycles",
-           "the drive of a screen has no stages");
-    refuse(s.output.contacts, "output.contacts", "contacts are not written of grains on a screen");
-}
-
 /// A hole must not be cut by the faces of the periodic box or by side walls.
 void check_side(Scenario const& s, char const* key, double side, GivenKeys const& given) {
     constexpr double rounding = 1e-6;
@@ -72,31 +54,12 @@ void check_fed_screen(Scenario const& s, GivenKeys const& given) {
                "lengthen the screen, or shorten feed.length");
 }
 
-/// A screen has all its keys, of which the time is only that of a batch.
-void check_given_keys(Scenario const& s, GivenKeys const& given) {
-    for (char const* key : {"screen.wire", "screen.time"}) {
-        bool const is_of_batch = std::string_view(key) == "screen.time";
-        if (is_of_batch && is_fed_screen(s) && given.has(key))
-            given.fail(key, "grains are fed to the screen, so that how long they are on it is a result",
-                       "remove it, or the section [feed]");
-        bool const is_needed = is_of_batch ? is_batch(s) : is_screen(s);
-        if (is_needed && !given.has(key))
-            given.fail("screen.opening", fmt::format("{} is missing", key), "write it as well");
-        if (!is_screen(s) && given.has(key))
-            given.fail(key, "there is no screen, because screen.opening is not given",
-                       "write opening, or remove the section [screen]");
-    }
-}
-
 }  // namespace
 
 void complete_screen(Scenario& s, GivenKeys const& given) {
-    check_given_keys(s, given);
     if (!is_screen(s)) return;
-    check_parts(s, given);
     if (has_holes(s)) check_holes(s, given);
     if (is_open(s)) return check_fed_screen(s, given);
-    refuse_length(given, "screen");
     constexpr int most_cycles = 1'000'000;
     if (*s.screen.time * s.trough.frequency > most_cycles)
         given.fail("screen.time", fmt::format("is more than {} cycles", most_cycles), "write a shorter time");

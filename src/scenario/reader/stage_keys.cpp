@@ -1,7 +1,6 @@
 #include "scenario/reader/key_fields.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace vibrotrough::scenario {
 namespace {
@@ -9,124 +8,96 @@ namespace {
 using enum KeyKind;
 using enum KeyNeed;
 
+template <auto member>
+constexpr KeyAccess of_stage = entry_field<&Scenario::stages, member>;
+
+GivenStage stage_at(Scenario const& s, std::size_t i) {
+    return s.stages.size() > i ? s.stages[i] : GivenStage{};
+}
+
 /// Whether the trough stands still in a stage; none when it does not, so that this is not written.
-template <std::size_t index>
-std::optional<Content> standstill_of(Scenario const& s) {
-    if (s.stages.size() <= index || !s.stages[index].standstill) return {};
-    return Content(1.0);
-}
+constexpr KeyAccess standstill{.get_entry = [](Scenario const& s, std::size_t i) -> std::optional<Content> {
+                                   return stage_at(s, i).standstill ? std::optional<Content>(1.0)
+                                                                    : std::nullopt;
+                               },
+                               .set_entry = of_stage<&GivenStage::standstill>.set_entry};
 
-template <std::size_t index>
-void set_stage_waveform(Scenario& s, GivenValue const& v) {
-    if (s.stages.size() <= index) s.stages.resize(index + 1);
-    s.stages[index].waveform = read_once(v.files_read().waveforms, read_waveform, v, waveform_advice);
-}
+constexpr KeyAccess waveform{.get_entry = [](Scenario const& s, std::size_t i) -> std::optional<Content> {
+                                 auto const motion = stage_at(s, i).waveform;
+                                 return motion ? content_of(motion->file.name) : std::nullopt;
+                             },
+                             .set_entry =
+                                 [](Scenario& s, std::size_t i, GivenValue const& v) {
+                                     entry_of(s.stages, i).waveform = read_once(
+                                         v.files_read().waveforms, read_waveform, v, waveform_advice);
+                                 }};
 
-template <std::size_t index>
-std::optional<Content> stage_waveform_of(Scenario const& s) {
-    if (s.stages.size() <= index || !s.stages[index].waveform) return {};
-    return Content(s.stages[index].waveform->file.name);
-}
-
-template <std::size_t index>
-void set_stroke(Scenario& s, GivenValue const& v) {
-    if (s.stages.size() <= index) s.stages.resize(index + 1);
-    s.stages[index].amplitude = v.number() / 2;
-}
-
-template <std::size_t index>
-std::optional<Content> stroke_of(Scenario const& s) {
-    if (s.stages.size() <= index || !s.stages[index].amplitude) return {};
-    return Content(2 * *s.stages[index].amplitude);
-}
+constexpr KeyAccess stroke{
+    .get_entry = [](Scenario const& s, std::size_t i) -> std::optional<Content> {
+        auto const amplitude = stage_at(s, i).amplitude;
+        return amplitude ? content_of(2 * *amplitude) : std::nullopt;
+    },
+    .set_entry = [](Scenario& s, std::size_t i,
+                    GivenValue const& v) { entry_of(s.stages, i).amplitude = v.number() / 2; }};
 
 /// A key of an entry that means the same as one of [trough], with its unit, range and example.
-void add_as_in_trough(std::vector<Key>& rows, std::size_t index, std::string_view name,
-                      std::string_view meaning, KeyAccess access) {
-    auto const same_name = [&](Key const& key) {
-        return section_of(key) == "trough" && last_name(key.path) == name;
-    };
-    Key key = *std::ranges::find_if(trough_keys(), same_name);
-    key.path = path_of_entry(stages_section, index, name);
+Key as_in_trough(std::string_view name, std::string_view meaning, KeyAccess access) {
+    Key key = *std::ranges::find_if(trough_keys(), [&](Key const& one) {
+        return section_of(one) == "trough" && last_name(one.path) == name;
+    });
+    key.path = name;
     key.group = "";
     key.if_missing = optional;
     key.meaning = meaning;
     key.access = access;
-    rows.push_back(key);
-}
-
-template <std::size_t index>
-void add_drive(std::vector<Key>& rows) {
-    constexpr auto list = &Scenario::stages;
-    auto const add = [&](std::string_view name, std::string_view meaning, KeyAccess access) {
-        add_as_in_trough(rows, index, name, meaning, access);
-    };
-    add("vibration_angle", "as trough.vibration_angle, in this stage",
-        entry_field<list, index, &GivenStage::vibration_angle>);
-    add("tan_vibration_angle", "as trough.tan_vibration_angle, in this stage",
-        entry_field<list, index, &GivenStage::tan_vibration_angle>);
-    add("amplitude", "r, as trough.amplitude, in this stage",
-        entry_field<list, index, &GivenStage::amplitude>);
-    add("stroke", "2 r, as trough.stroke, in this stage",
-        KeyAccess{stroke_of<index>, set_stroke<index>}.written_if(never));
-    add("throw_number", "throw number in this stage, instead of machine number and frequency",
-        entry_field<list, index, &GivenStage::throw_number>);
-    add("machine_number", "machine number in this stage, instead of throw number and frequency",
-        entry_field<list, index, &GivenStage::machine_number>);
-    add("frequency", "frequency in this stage, instead of throw number and machine number",
-        entry_field<list, index, &GivenStage::frequency>);
-    add("along_phase",
-        "as trough.along_phase, in this stage; 180 deg less than before reverses the direction of conveying",
-        entry_field<list, index, &GivenStage::along_phase>);
-    add("waveform", "as trough.waveform, in this stage",
-        KeyAccess{stage_waveform_of<index>, set_stage_waveform<index>});
-}
-
-template <std::size_t index>
-void add_stage(std::vector<Key>& rows) {
-    constexpr auto list = &Scenario::stages;
-    auto const add = [&](std::string_view name, KeyKind kind, std::string_view unit, double least,
-                         double most, std::string_view range, std::string_view example,
-                         std::string_view meaning, KeyAccess access) {
-        rows.push_back({path_of_entry(stages_section, index, name), kind, unit, least, most, range, "",
-                        optional, example, meaning, access});
-    };
-    add("cycles", integer, "", 1, 1e5, "1 to 100000", "20",
-        "length of a stage of the drive, with its ramp; what a stage does not give of the drive is as in the "
-        "stage before, and in the first as in [trough]",
-        entry_field<list, index, &GivenStage::cycles>);
-    add("time", quantity, "s", 1e-4, 1e6, "0.1 ms to 1000000 s", "\"1.5 s\"",
-        "length of the stage with its ramp, instead of cycles; rounded to whole cycles",
-        entry_field<list, index, &GivenStage::time>);
-    add("ramp", quantity, "s", 1e-4, 1e6, "0.1 ms to 1000000 s", "\"0.2 s\"",
-        "time at the beginning of the stage in which the drive changes evenly from that of the stage before "
-        "(at first: from standstill) to its own; rounded to whole cycles; without it the drive changes at "
-        "once",
-        entry_field<list, index, &GivenStage::ramp>);
-    add("ramp_cycles", integer, "", 1, 1e5, "1 to 100000", "5", "the same in cycles, instead of ramp",
-        entry_field<list, index, &GivenStage::ramp_cycles>);
-    add("standstill", truth, "", 0, 1, "true or false", "true",
-        "the trough stands still, after the ramp if there is one; cycles are those of the stage before",
-        KeyAccess{standstill_of<index>, entry_field<list, index, &GivenStage::standstill>.set});
-    add_drive<index>(rows);
-    add("mass_flow", quantity, "kg/s", 0, 1e5, "0 to feed.mass_flow", "\"0 t/h\"",
-        "what is fed into an open trough in this stage; as in the stage before, and in the first as "
-        "feed.mass_flow",
-        entry_field<list, index, &GivenStage::mass_flow>);
+    return key;
 }
 
 }  // namespace
 
 std::span<Key const> stage_keys() {
-    static std::vector<Key> const all = [] {
-        std::vector<Key> rows;
-        [&]<std::size_t... i>(std::index_sequence<i...>) {
-            (add_stage<i>(rows), ...);
-        }
-        (std::make_index_sequence<most_stages>());
-        return rows;
-    }();
-    return all;
+    static std::vector<Key> const rows{
+        {"cycles", integer, "", 1, 1e5, "1 to 100000", "", optional, "20",
+         "length of a stage of the drive, with its ramp; what a stage does not give of the drive is as in "
+         "the "
+         "stage before, and in the first as in [trough]",
+         of_stage<&GivenStage::cycles>},
+        {"time", quantity, "s", 1e-4, 1e6, "0.1 ms to 1000000 s", "", optional, "\"1.5 s\"",
+         "length of the stage with its ramp, instead of cycles; rounded to whole cycles",
+         of_stage<&GivenStage::time>},
+        {"ramp", quantity, "s", 1e-4, 1e6, "0.1 ms to 1000000 s", "", optional, "\"0.2 s\"",
+         "time at the beginning of the stage in which the drive changes evenly from that of the stage before "
+         "(at first: from standstill) to its own; rounded to whole cycles; without it the drive changes at "
+         "once",
+         of_stage<&GivenStage::ramp>},
+        {"ramp_cycles", integer, "", 1, 1e5, "1 to 100000", "", optional, "5",
+         "the same in cycles, instead of ramp", of_stage<&GivenStage::ramp_cycles>},
+        {"standstill", truth, "", 0, 1, "true or false", "", optional, "true",
+         "the trough stands still, after the ramp if there is one; cycles are those of the stage before",
+         standstill},
+        as_in_trough("vibration_angle", "as trough.vibration_angle, in this stage",
+                     of_stage<&GivenStage::vibration_angle>),
+        as_in_trough("tan_vibration_angle", "as trough.tan_vibration_angle, in this stage",
+                     of_stage<&GivenStage::tan_vibration_angle>),
+        as_in_trough("amplitude", "r, as trough.amplitude, in this stage", of_stage<&GivenStage::amplitude>),
+        as_in_trough("stroke", "2 r, as trough.stroke, in this stage", stroke.written_if(never)),
+        as_in_trough("throw_number", "throw number in this stage, instead of machine number and frequency",
+                     of_stage<&GivenStage::throw_number>),
+        as_in_trough("machine_number", "machine number in this stage, instead of throw number and frequency",
+                     of_stage<&GivenStage::machine_number>),
+        as_in_trough("frequency", "frequency in this stage, instead of throw number and machine number",
+                     of_stage<&GivenStage::frequency>),
+        as_in_trough("along_phase",
+                     "as trough.along_phase, in this stage; 180 deg less than before reverses the direction "
+                     "of conveying",
+                     of_stage<&GivenStage::along_phase>),
+        as_in_trough("waveform", "as trough.waveform, in this stage", waveform),
+        {"mass_flow", quantity, "kg/s", 0, 1e5, "0 to feed.mass_flow", "", optional, "\"0 t/h\"",
+         "what is fed into an open trough in this stage; as in the stage before, and in the first as "
+         "feed.mass_flow",
+         of_stage<&GivenStage::mass_flow>},
+    };
+    return rows;
 }
 
 }  // namespace vibrotrough::scenario

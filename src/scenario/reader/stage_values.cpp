@@ -8,6 +8,32 @@
 namespace vibrotrough::scenario {
 namespace {
 
+/// What a stage cannot have together.
+struct StagePair {
+    std::string_view one, other, reason;
+};
+constexpr std::string_view both_say = "both say the same";
+constexpr std::string_view stands_still = "the trough stands still in this stage";
+constexpr std::array excluded_in_stage{
+    StagePair{"cycles", "time", both_say},
+    StagePair{"ramp", "ramp_cycles", both_say},
+    StagePair{"vibration_angle", "tan_vibration_angle", both_say},
+    StagePair{"amplitude", "stroke", both_say},
+    StagePair{"throw_number", "machine_number", both_say},
+    StagePair{"throw_number", "frequency", both_say},
+    StagePair{"machine_number", "frequency", both_say},
+    StagePair{"waveform", "along_phase", "the waveform is the whole motion"},
+    StagePair{"standstill", "vibration_angle", stands_still},
+    StagePair{"standstill", "tan_vibration_angle", stands_still},
+    StagePair{"standstill", "amplitude", stands_still},
+    StagePair{"standstill", "stroke", stands_still},
+    StagePair{"standstill", "throw_number", stands_still},
+    StagePair{"standstill", "machine_number", stands_still},
+    StagePair{"standstill", "frequency", stands_still},
+    StagePair{"standstill", "along_phase", stands_still},
+    StagePair{"standstill", "waveform", stands_still},
+};
+
 /// Checks one stage with what it gives.
 class StageChecks {
   public:
@@ -19,21 +45,16 @@ class StageChecks {
           given_(given) {}
 
     void check() const {
-        check_exclusive();
-        check_standstill();
+        check_pairs();
         check_drive();
         check_length();
         if (!stage_.trough.waveform) return;
-        if (given_.has(key("along_phase")))
-            fail("along_phase", "is given, but the waveform already is the whole motion", "remove it");
         if (auto const fault = find_fault(*stage_.trough.waveform, stage_.trough))
             fail("waveform", fault->wrong, fault->instead);
     }
 
   private:
-    std::string key(std::string_view name) const {
-        return fmt::format("{}.{}.{}", stages_section, index_ + 1, name);
-    }
+    std::string key(std::string_view name) const { return path_of_entry(stages_section, index_, name); }
 
     /// Fails at this key or, when it is not given, at another one of the stage.
     [[noreturn]] void fail(std::string_view name, std::string_view wrong, std::string_view instead) const {
@@ -44,30 +65,16 @@ class StageChecks {
         given_.fail(place, wrong, instead);
     }
 
-    void check_exclusive() const {
-        constexpr std::array<std::array<std::string_view, 2>, 7> pairs{
-            {{"cycles", "time"},
-             {"ramp", "ramp_cycles"},
-             {"vibration_angle", "tan_vibration_angle"},
-             {"amplitude", "stroke"},
-             {"throw_number", "machine_number"},
-             {"throw_number", "frequency"},
-             {"machine_number", "frequency"}}};
-        for (auto const& [one, other] : pairs) {
-            if (given_.has(key(one)) && given_.has(key(other)))
-                fail(other, fmt::format("{} is also given, and both say the same", one),
-                     "keep one of the two");
-        }
+    /// Whether the stage has what a key says, which may come from a stage before.
+    bool has(std::string_view name) const {
+        if (name == "standstill") return stage_given_.standstill;
+        return name == "waveform" ? stage_.trough.waveform != nullptr : given_.has(key(name));
     }
 
-    void check_standstill() const {
-        if (!stage_given_.standstill) return;
-        for (std::string_view const name :
-             {"vibration_angle", "tan_vibration_angle", "amplitude", "stroke", "throw_number",
-              "machine_number", "frequency", "along_phase", "waveform"}) {
-            if (given_.has(key(name)))
-                fail(name, "is given, but the trough stands still in this stage",
-                     "write it into the next stage, or remove standstill");
+    void check_pairs() const {
+        for (auto const& [one, other, reason] : excluded_in_stage) {
+            if (has(one) && given_.has(key(other)))
+                fail(other, fmt::format("does not go with {}: {}", one, reason), "remove one of the two");
         }
     }
 
@@ -93,7 +100,7 @@ class StageChecks {
         if (value <= row.most + rounding && (may_be_small || value >= row.least)) return;
         fail(name,
              fmt::format("the stage would have a {} of {:.4g}{}, outside the range {}", name, value, unit,
-                         row.range),
+                         range_of(row)),
              "change it or the amplitude");
     }
 
@@ -121,28 +128,10 @@ class StageChecks {
     GivenKeys const& given_;
 };
 
-/// What the stages themselves decide must not be given.
-void check_plan(GivenKeys const& given) {
-    refuse_length(given, "stages");
-}
-
 }  // namespace
-
-void refuse_length(GivenKeys const& given, std::string_view what) {
-    for (char const* key : {"measure.max_cycles", "measure.min_cycles"})
-        if (given.has(key))
-            given.fail(key, fmt::format("how long a run is follows from the {}", what), "remove it");
-    for (char const* key : {"measure.max_packings", "measure.max_core_time"})
-        if (given.has(key))
-            given.fail(key,
-                       fmt::format("a case with a {} has as many packings as measure.packings says",
-                                   what == "stages" ? "drive in stages" : what),
-                       "remove it");
-}
 
 void complete_stages(Scenario& scenario, GivenKeys const& given) {
     if (scenario.stages.empty()) return;
-    check_plan(given);
     auto const all = stages(scenario);
     bool moves = false;
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -10,8 +10,8 @@ namespace vibrotrough::scenario {
 namespace {
 
 bool differs(Key const& key, std::vector<Scenario> const& cases) {
-    auto const first = key.access.get(cases.front());
-    return std::ranges::any_of(cases, [&](Scenario const& one) { return key.access.get(one) != first; });
+    auto const first = key.get(cases.front());
+    return std::ranges::any_of(cases, [&](Scenario const& one) { return key.get(one) != first; });
 }
 
 /// What a case has for a key, if it is of this type.
@@ -26,7 +26,7 @@ std::optional<Type> value_as(Scenario const& scenario, std::string_view path) {
 
 std::optional<Content> key_value(Scenario const& scenario, std::string_view path) {
     Key const* const key = find_key(path);
-    return key != nullptr ? key->access.get(scenario) : std::nullopt;
+    return key != nullptr ? key->get(scenario) : std::nullopt;
 }
 
 std::optional<double> number_of(Scenario const& scenario, std::string_view path) {
@@ -69,7 +69,7 @@ std::string_view short_name(Key const& key) {
 std::string swept_label(Scenario const& scenario, std::span<Key const* const> keys) {
     std::string label;
     for (Key const* const key : keys) {
-        auto const value = key->access.get(scenario);
+        auto const value = key->get(scenario);
         label += fmt::format("{}{} {}", label.empty() ? "" : ", ", short_name(*key),
                              value ? written_value(*key, *value) : "none");
     }

@@ -124,14 +124,14 @@ constexpr std::array rows_of_trough{
         "alpha, angle between trough and horizontal, positive if the trough rises in the conveying "
         "direction",
         field<&Scenario::trough, &Trough::inclination>.written_if(lacks<&GivenDrive::tan_inclination>)},
-    Key{"trough.tan_inclination", number, "", -1, 1, "-1 to 1", "inclination", required, "-0.05",
-        "tan(alpha)", tangent_of<&Trough::inclination, &GivenDrive::tan_inclination>},
+    Key{"trough.tan_inclination", number, "", -1, 1, "", "inclination", required, "-0.05", "tan(alpha)",
+        tangent_of<&Trough::inclination, &GivenDrive::tan_inclination>},
     Key{"trough.vibration_angle", quantity, "radian", 0, 89 / radian, "0 to 89 deg", "vibration angle",
         required, "\"30 deg\"", "beta, angle between the direction of vibration and the trough",
         field<&Scenario::trough, &Trough::vibration_angle>.written_if(
             lacks<&GivenDrive::tan_vibration_angle>)},
-    Key{"trough.tan_vibration_angle", number, "", 0, 57, "0 to 57", "vibration angle", required, "0.5",
-        "tan(beta)", tangent_of<&Trough::vibration_angle, &GivenDrive::tan_vibration_angle>},
+    Key{"trough.tan_vibration_angle", number, "", 0, 57, "", "vibration angle", required, "0.5", "tan(beta)",
+        tangent_of<&Trough::vibration_angle, &GivenDrive::tan_vibration_angle>},
     Key{"trough.amplitude", quantity, "m", 1e-6, 1, "1 um to 1 m", "amplitude", required, "\"6 mm\"",
         "r, amplitude in the direction of vibration (half the stroke)",
         field<&Scenario::trough, &Trough::amplitude>},
@@ -158,11 +158,11 @@ constexpr std::array rows_of_trough{
         field<&Scenario::trough, &Trough::frequency>.written_if([](Scenario const& s) {
             return !s.trough.given.throw_number && !s.trough.given.machine_number;
         })},
-    Key{"trough.friction", number, "", 0, 5, "0 to 5", "", required, "0.23",
+    Key{"trough.friction", number, "", 0, 5, "", "", required, "0.23",
         "mu, friction coefficient of grain on trough", field<&Scenario::trough, &Trough::friction>},
     Key{"trough.restitution", number, "", 0.05001, 1, "above 0.05, to 1", "", required, "0.5",
         "e, coefficient of restitution of grain on trough", field<&Scenario::trough, &Trough::restitution>},
-    Key{"trough.side_wall_friction", number, "", 0, 5, "0 to 5", "", optional, "0.3",
+    Key{"trough.side_wall_friction", number, "", 0, 5, "", "", optional, "0.3",
         "friction coefficient of grain on side wall; adds side walls that move with the trough, without "
         "which the layer is periodic across the trough",
         field<&Scenario::trough, &Trough::side_wall_friction>},
@@ -181,18 +181,17 @@ constexpr std::array rows_of_trough{
         "order, ratio and phase of further parts of the drive's acceleration; the ratio is to the "
         "fundamental (Eq. 22)",
         KeyAccess{harmonics_of, set_harmonics}},
-    Key{"trough.waveform", file, "", 0, 0, "a .csv file in the same folder", "", optional, "\"measured.csv\"",
+    Key{"trough.waveform", file, "", 0, 0, file_or(".csv"), "", optional, "\"measured.csv\"",
         "one measured cycle (columns time_s,x_m,z_m) that replaces the sinusoid",
         KeyAccess{waveform_of, set_waveform}},
-    Key{"trough.mesh", files, "", 0, 0, "a .stl file in the same folder, or a list of at most 30", "",
-        optional, "\"chute.stl\"",
+    Key{"trough.mesh", files, "", 0, 0, file_or(".stl"), "", optional, "\"chute.stl\"",
         "surface of triangles that replaces the flat floor, x along the trough, y across and z normal to it; "
         "its "
         "length and width are those of the layer; several files have one origin, and each is a solid with "
         "the "
         "name of its file without .stl",
         KeyAccess{mesh_of, set_mesh}},
-    Key{"trough.mesh_unit", choice, "", 0, 0, "mm or m", "", optional, "\"mm\"",
+    Key{"trough.mesh_unit", choice, "", 0, 0, one_of("mm", "m"), "", optional, "\"mm\"",
         "unit of length of the mesh's file, which does not say it",
         field<&Scenario::trough, &Trough::mesh_unit>.written_if(has_mesh)},
 };

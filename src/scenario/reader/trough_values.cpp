@@ -14,11 +14,6 @@ class TroughChecks {
     TroughChecks(Trough& trough, GivenKeys const& given) : trough_(trough), given_(given) {}
 
     void complete() {
-        if (trough_.width && trough_.side_wall_friction) {
-            given_.fail("trough.width",
-                        "is given together with side walls, between which the width is layer.width",
-                        "remove one of width and side_wall_friction");
-        }
         trough_.given.is_stroke = given_.has("trough.stroke");
         trough_.given.is_turns =
             given_.has("trough.frequency") && !given_.text("trough.frequency", 1).ends_with("Hz");
@@ -41,7 +36,7 @@ class TroughChecks {
         if (result < key.least || result > key.most) {
             given_.fail(
                 fmt::format("trough.{}", amplitude_name()),
-                fmt::format("the drive would run at {:.4g} Hz, outside the range {}", result, key.range),
+                fmt::format("the drive would run at {:.4g} Hz, outside the range {}", result, range_of(key)),
                 fmt::format("change the {} or the {} number", amplitude_name(),
                             trough_.given.throw_number ? "throw" : "machine"));
         }
@@ -56,19 +51,14 @@ class TroughChecks {
         for (std::string_view const given :
              {"trough.frequency", "trough.machine_number", "trough.throw_number"}) {
             if (!given_.has(given)) continue;
-            given_.fail(
-                given,
-                fmt::format("gives a {} of {:.4g}, outside the range {}", last_name(path), value, key.range),
-                fmt::format("reduce it or the {}", amplitude_name()));
+            given_.fail(given,
+                        fmt::format("gives a {} of {:.4g}, outside the range {}", last_name(path), value,
+                                    range_of(key)),
+                        fmt::format("reduce it or the {}", amplitude_name()));
         }
     }
 
     void check_waveform() const {
-        for (char const* other : {"trough.harmonics", "trough.along_phase"}) {
-            if (given_.has(other))
-                given_.fail(other, "is given together with a waveform, which already is the whole motion",
-                            "keep one of the two");
-        }
         if (auto const fault = find_fault(*trough_.waveform, trough_))
             given_.fail("trough.waveform", fault->wrong, fault->instead);
     }

@@ -40,7 +40,12 @@ class ValueReader {
         fail(node,
              are_files ? "is one file, and a list is given"
                        : fmt::format("{} is not an allowed value", written(node)),
-             fmt::format("{}; allowed: {}", write_instead(key_), key_.range));
+             fmt::format("{}; allowed: {}", write_instead(key_), range_of(key_)));
+    }
+
+    std::string name(toml::node const& node) const {
+        if (!node.is_string()) fail(node, "is not a text", write_instead(key_));
+        return **node.as_string();
     }
 
     std::vector<std::string> words(toml::node const& node) const {
@@ -126,15 +131,11 @@ class ValueReader {
     }
 
     [[noreturn]] void fail_range(toml::node const& node) const {
-        std::string slip, range(key_.range);
+        std::string slip, range = range_of(key_);
         if (node.is_string() && has_unit()) {
             std::string const text = **node.as_string(), unit(key_.unit);
             slip = core::slip_of_unit(text, key_.least, key_.most, unit);
-            bool const is_in_range =
-                fmt::format(" {} ", range).find(fmt::format(" {} ", core::unit_of(text))) !=
-                std::string::npos;
-            if (!is_in_range && std::isfinite(key_.least) && std::isfinite(key_.most))
-                range = core::range_in_unit_of(text, key_.least, key_.most, unit);
+            range = core::range_in_unit_of(text, key_.least, key_.most, unit);
         } else if (node.is_number()) {
             slip = slip_of(*node.value<double>());
         }
@@ -153,9 +154,7 @@ class ValueReader {
 
     /// The file lies in the folder of the campaign file, and its name is harmless to engine and shell.
     bool is_file_name(std::string_view name) const {
-        // The range ends with "a .csv file in the same folder".
-        std::string_view const words = key_.range.substr(key_.range.rfind(" .") + 1);
-        std::string_view const ending = words.substr(0, words.find(' '));
+        std::string_view const ending = key_.allowed.ending;
         return is_plain_text(name) && name.size() > ending.size() && name.size() <= 100 &&
                name.ends_with(ending) && name.front() != '.' && name.front() != '-';
     }
@@ -193,10 +192,7 @@ class ValueReader {
 
     /// What is wrong with a number, with its own advice where it has one.
     [[noreturn]] void fail_as_told(toml::node const& node, core::QuantityError const& error) const {
-        std::string const told = error.what();
-        auto const advice = told.find("; write ");
-        if (advice == told.npos) fail(node, told, write_instead(key_));
-        fail(node, told.substr(0, advice), told.substr(advice + 2));
+        fail(node, error.problem(), error.advice().empty() ? write_instead(key_) : error.advice());
     }
 
     double plain_number(toml::node const& node) const {
@@ -215,8 +211,7 @@ class ValueReader {
         try {
             number = core::parse_number(text);
         } catch (core::QuantityError const& error) {
-            if (std::string_view(error.what()).find("comma") != std::string_view::npos)
-                fail_as_told(node, error);
+            if (!error.advice().empty()) fail_as_told(node, error);
         }
         if (number && text.find('%') != text.npos && key_.kind != KeyKind::integer) return *number;
         fail(node, fmt::format("{} is a text, but the key needs a plain number", written(node)),
@@ -241,6 +236,13 @@ Key const& known_key(std::string_view path, FilePosition place, std::string_view
              nearest.empty() ? std::string(advice) : fmt::format("did you mean {}?", nearest));
 }
 
+Key const& varied_key(std::string_view path, FilePosition place) {
+    constexpr std::string_view advice = "vary a physical input";
+    Key const& key = known_key(path, place, advice);
+    if (!can_vary(key)) throw_at(place, path, "this key cannot be varied", advice);
+    return key;
+}
+
 std::optional<double> grains_per_second(std::string const& text) {
     static std::regex const grains(R"(grains?(?= ?/| per ))");
     try {
@@ -258,6 +260,8 @@ Content read_content(Key const& key, toml::node const& node, std::string const& 
             return reader.word(node);
         case KeyKind::files:
             return node.is_array() ? Content(reader.file_names(node)) : Content(reader.word(node));
+        case KeyKind::name:
+            return reader.name(node);
         case KeyKind::quantities:
         case KeyKind::numbers:
             return reader.numbers(node);
@@ -276,15 +280,10 @@ Content read_plain_content(Key const& key, std::string const& text) {
     // Infinities pass here: the check of the key's range refuses them with better advice.
     std::optional<double> const number = core::csv_number(text, ',', core::CsvNumbers::any);
     bool const is_whole = number && std::abs(*number) < 1e15 && *number == std::round(*number);
-    try {
-        if (key.kind == KeyKind::integer && is_whole)
-            return read_content(key, toml::value<std::int64_t>(std::llround(*number)), "");
-        if (number && !has_words(key)) return read_content(key, toml::value<double>(*number), "");
-        return read_content(key, toml::value<std::string>(text), "");
-    } catch (core::InputError const& error) {
-        std::string const message = error.what();
-        throw core::InputError(message.substr(std::string_view(":1:1: ").size()));
-    }
+    if (key.kind == KeyKind::integer && is_whole)
+        return read_content(key, toml::value<std::int64_t>(std::llround(*number)), "");
+    if (number && !has_words(key)) return read_content(key, toml::value<double>(*number), "");
+    return read_content(key, toml::value<std::string>(text), "");
 }
 
 double read_any_number(Key const& key, toml::node const& node, std::string const& file) {

@@ -19,6 +19,9 @@ Position position_of(toml::source_region const& source);
 /// @throws core::InputError when there is no such key
 Key const& known_key(std::string_view path, FilePosition place, std::string_view advice);
 
+/// The key with this path, which can be varied. @throws core::InputError when there is none
+Key const& varied_key(std::string_view path, FilePosition place);
+
 /// Grains per second, of "500 1/s" or "500 grains/s": in the database of units a grain is a mass, of which no
 /// one means so many per second here. None when the text is another quantity.
 std::optional<double> grains_per_second(std::string const& text);

@@ -57,7 +57,7 @@ bool is_default(Key const& key, Content const& value) {
 /// The value that to_toml() writes for a key.
 std::optional<Content> written_value(Key const& key, Scenario const& scenario) {
     if (key.access.is_written != nullptr && !key.access.is_written(scenario)) return {};
-    auto value = key.access.get(scenario);
+    auto value = key.get(scenario);
     if (value && key.access.is_left_out_by_default && is_default(key, *value)) value.reset();
     return value;
 }
@@ -102,7 +102,7 @@ WrittenKeys keys_of(Scenario const& scenario) {
     WrittenKeys keys;
     for (Key const& key : all_keys()) {
         bool const has_default = key.access.is_left_out_by_default && can_vary(key);
-        auto value = has_default ? key.access.get(scenario) : written_value(key, scenario);
+        auto value = has_default ? key.get(scenario) : written_value(key, scenario);
         if (value) keys.emplace(key.path, *std::move(value));
     }
     return keys;

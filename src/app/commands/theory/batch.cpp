@@ -19,8 +19,8 @@ namespace {
 struct TheoryBatchArguments {
     std::string input;
     RollingOption rolling;
-    StartsOption starts;
-    Text output, jobs;
+    QuantityOptions counts;
+    Text output;
 };
 
 void run_theory_batch(TheoryBatchArguments const& options) {
@@ -30,10 +30,10 @@ void run_theory_batch(TheoryBatchArguments const& options) {
         throw core::InputError(fmt::format(
             "--output {}: must end in .csv or .h5; write for example --output answers.csv", output));
     }
-    int const jobs = options.jobs ? read_count("--jobs", *options.jobs, "2", 1, 4096) : 0;
+    int const jobs = static_cast<int>(options.counts.value("--jobs").value_or(0));
     store::TheoryPoints const table = store::read_theory_points(options.input);
     auto const law = options.rolling.law();
-    int const starts = options.starts.count(law.has_value());
+    int const starts = count_starts(options.counts, law.has_value());
     theory::BatchResult answer;
     try {
         answer = theory::solve_batch(table.points, jobs, law, 1, starts);
@@ -60,8 +60,7 @@ void add_theory_batch(CLI::App& theory, int& exit_code) {
     command->add_option("input", options->input, "CSV file to read")->required();
     command->add_option("--output", options->output, "File to write, .csv or .h5");
     options->rolling.add_to(*command);
-    options->starts.add_to(*command);
-    command->add_option("--jobs", options->jobs, "Number of threads; default: all cores");
+    options->counts.add_to(*command, {{"--jobs"}, {"--starts"}});
     command->footer(
         std::string(
             R"(The first line of the CSV file names the inputs: throw_number, machine_number, frequency_hz or rpm;

@@ -24,7 +24,7 @@ struct TheoryCalibrateArguments {
     CalibrationOptions shared;
     std::vector<std::string> fixed;
     std::string model = "point-mass";
-    Text grain_diameter;
+    QuantityOptions grains;
 };
 
 /// The values of --fix. @throws core::InputError unless each is NAME=NUMBER, and none comes twice
@@ -64,7 +64,7 @@ int run_theory_calibrate(TheoryCalibrateArguments const& options) {
     auto const speeds = options.shared.read_speeds(options.file);
     auto const fixed = read_fixed(options.fixed);
     bool const is_atlas = options.model == "atlas";
-    if (is_atlas != options.grain_diameter.has_value())
+    if (is_atlas != options.grains.has("--grain-diameter"))
         throw core::InputError(is_atlas ? "--model atlas needs the diameter of the grains; write for example "
                                           "--grain-diameter \"3 mm\""
                                         : "--grain-diameter belongs to --model atlas");
@@ -72,9 +72,8 @@ int run_theory_calibrate(TheoryCalibrateArguments const& options) {
     learn::SpeedModel model;
     if (is_atlas) {
         shared.free = learn::with_unknown_layer(shared.free, fixed);
-        model = learn::atlas_speed_model(
-            read_positive_quantity("--grain-diameter", *options.grain_diameter, "m", "3 mm"), shared.free,
-            fixed, speeds);
+        model =
+            learn::atlas_speed_model(*options.grains.value("--grain-diameter"), shared.free, fixed, speeds);
     } else {
         model = learn::point_mass_model(shared.free, fixed, speeds);
         check_fixed(fixed);
@@ -86,7 +85,8 @@ int run_theory_calibrate(TheoryCalibrateArguments const& options) {
             "theory calibrate: asking the atlas tens of thousands of times; this takes about half a "
             "minute\n");
     learn::CalibrationSettings settings = shared.settings();
-    if (!is_atlas && !shared.common_error && !shared.exact && is_plastic_mass(parameters, fixed))
+    if (!is_atlas && !shared.quantities.has("--common-error") && !shared.exact &&
+        is_plastic_mass(parameters, fixed))
         settings.layer_errors = learn::point_mass_layer_errors(parameters, fixed, speeds);
     learn::Calibration const calibration = learn::calibrate(model, parameters, speeds, settings);
     print_calibration(shared, calibration, {is_atlas ? "the atlas" : "the point mass"});
@@ -113,8 +113,7 @@ void add_theory_calibrate(CLI::App& theory, int& exit_code) {
                      "point-mass, or atlas: the simulated layers of spheres (validation/atlas)")
         ->check(CLI::IsMember({"point-mass", "atlas"}))
         ->capture_default_str();
-    command->add_option("--grain-diameter", options->grain_diameter, "Of the grains, for --model atlas")
-        ->type_name("LENGTH");
+    options->grains.add_to(*command, {{"--grain-diameter", ", for --model atlas"}});
     command->footer(
         R"(The quantities of the point mass that can be free or fixed are friction, static_friction, landing_friction,
 restitution, inclination and vibration_angle (both in degrees). Those of the atlas are friction (on the trough),

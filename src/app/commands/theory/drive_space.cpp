@@ -13,11 +13,7 @@
 namespace vibrotrough::app {
 namespace {
 
-constexpr double lowest_frequency = 1e-3, highest_frequency = 1e4;  // Hz
-constexpr double least_amplitude = 1e-7, most_amplitude = 10;       // m
-constexpr int most_poles = 48;                                      // of asynchronous motors
-constexpr double lowest_mains = 1, highest_mains = 400;             // Hz, with a frequency converter
-constexpr double most_slip = 0.3;
+constexpr int most_poles = 48;  // of asynchronous motors
 
 /// Hz, of a list such as "960,1450,2900"; empty when the text is a range, or a number with a decimal comma.
 std::vector<double> read_listed_speeds(Text const& rpm) {
@@ -36,8 +32,7 @@ std::vector<double> read_listed_speeds(Text const& rpm) {
 /// Hz, of the mains: "50" or "50 Hz".
 double read_mains(std::string const& text) {
     bool const is_plain = text.find_first_not_of("0123456789.,+eE- ") == std::string::npos;
-    if (is_plain) return read_number_within("--mains", text, "50", lowest_mains, highest_mains);
-    return read_quantity_within("--mains", text, "Hz", "50 Hz", lowest_mains, highest_mains);
+    return read_option("--mains", is_plain ? text + " Hz" : text);
 }
 
 /// The numbers of poles of a list such as "4,6,8".
@@ -78,17 +73,10 @@ std::vector<double> read_motor_speeds(DriveTexts const& o) {
                         "as in America",
                         *o.poles));
     double const mains = read_mains(*o.mains);
-    double const slip = o.slip ? read_number_within("--slip", *o.slip, "0.03", 0, most_slip) : 0;
+    double const slip = o.slip ? read_option("--slip", *o.slip) : 0;
     std::vector<double> speeds;
     for (int const poles : read_listed_poles(*o.poles)) speeds.push_back(2 * mains / poles * (1 - slip));
     return speeds;
-}
-
-/// m, of a stroke or an amplitude: one that can be solved.
-double read_length(char const* option, std::string const& text, char const* example, double factor) {
-    return read_quantity_within(option, text, "m", example, factor * least_amplitude,
-                                factor * most_amplitude) /
-           factor;
 }
 
 /// m, of a list of strokes such as "6,8,10 mm" or "6 mm, 8 mm"; empty when the text is a range or one number.
@@ -102,7 +90,7 @@ std::vector<double> read_listed_amplitudes(Text const& stroke) {
     std::stringstream pieces(*stroke);
     for (std::string piece; std::getline(pieces, piece, ',');) {
         bool const has_unit = piece.find('m') != std::string::npos;
-        amplitudes.push_back(read_length("--stroke", has_unit ? piece : piece + unit, "6,8,10 mm", 2));
+        amplitudes.push_back(read_option("--stroke", has_unit ? piece : piece + unit) / 2);
     }
     return amplitudes;
 }
@@ -123,26 +111,19 @@ void read_frequency(DriveTexts const& o, ReadSpace& read) {
         read.space.frequency = read_range("--rpm", *o.rpm, "300 to 1500",
                                           [](std::string const& text) { return read_turns("--rpm", text); });
     }
-    if (!o.frequency) return;
-    char const* const example = "5 Hz to 25 Hz";
-    read.space.frequency = read_range("--frequency", *o.frequency, example, [&](std::string const& text) {
-        return read_quantity_within("--frequency", text, "Hz", example, lowest_frequency, highest_frequency);
-    });
+    if (o.frequency) read.space.frequency = read_option_range("--frequency", *o.frequency);
 }
 
 void read_amplitude(DriveTexts const& o, ReadSpace& read) {
     refuse_both("--stroke", o.stroke, "--amplitude", o.amplitude);
     read.amplitudes = read_listed_amplitudes(o.stroke);
-    auto const range = [](char const* option, std::string const& text, char const* example, double factor) {
-        return read_range(option, text, example,
-                          [=](std::string const& one) { return read_length(option, one, example, factor); });
-    };
     if (!read.amplitudes.empty()) {
         read.space.amplitude = ends_of(read.amplitudes);
     } else if (o.stroke) {
-        read.space.amplitude = range("--stroke", *o.stroke, "2 mm to 16 mm", 2);
+        auto const [low, high] = read_option_range("--stroke", *o.stroke);
+        read.space.amplitude = {low / 2, high / 2};
     }
-    if (o.amplitude) read.space.amplitude = range("--amplitude", *o.amplitude, "1 mm to 8 mm", 1);
+    if (o.amplitude) read.space.amplitude = read_option_range("--amplitude", *o.amplitude);
 }
 
 }  // namespace
@@ -151,20 +132,15 @@ ReadSpace read_drive_space(DriveTexts const& o) {
     ReadSpace read;
     read_frequency(o, read);
     read_amplitude(o, read);
-    auto const angle = [](char const* option, char const* example, double low) {
-        return [=](std::string const& text) { return read_angle(option, text, example, low, 90); };
-    };
     theory::DriveSpace& space = read.space;
-    if (o.vibration_angle)
-        space.vibration_angle = read_range("--vibration-angle", *o.vibration_angle, "20 deg to 40 deg",
-                                           angle("--vibration-angle", "30 deg", 0));
-    if (o.inclination)
-        space.inclination = read_range("--inclination", *o.inclination, "-5 deg to 0 deg",
-                                       angle("--inclination", "-5 deg", -90));
-    if (o.machine_number)
-        space.max_machine_number = read_number_within("--machine-number", *o.machine_number, "4", 1e-3, 1e4);
-    if (o.throw_number)
-        space.max_throw_number = read_number_within("--throw-number", *o.throw_number, "3", 1e-3, 1e4);
+    if (o.vibration_angle) space.vibration_angle = read_option_range("--vibration-angle", *o.vibration_angle);
+    if (!(space.vibration_angle.low > 0))
+        throw core::InputError(fmt::format(
+            "--vibration-angle {}: must be above 0; write for example --vibration-angle \"20 deg to 40 deg\"",
+            *o.vibration_angle));
+    if (o.inclination) space.inclination = read_option_range("--inclination", *o.inclination);
+    if (o.machine_number) space.max_machine_number = read_option("--machine-number", *o.machine_number);
+    if (o.throw_number) space.max_throw_number = read_option("--throw-number", *o.throw_number);
     return read;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/commands/theory/options.hpp"
+#include "theory/drive_search.hpp"
 
 #include <optional>
 #include <vector>

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -17,7 +18,7 @@ namespace vibrotrough::app {
 namespace {
 
 struct TheoryLimitsArguments {
-    Text tan_vibration_angle, tan_inclination, friction, throw_number;
+    QuantityOptions quantities;
     bool json = false;
 };
 
@@ -29,17 +30,15 @@ struct Inputs {
 
 Inputs read(TheoryLimitsArguments const& o) {
     Inputs in{};
-    in.tan_beta =
-        read_number_within("--tan-vibration-angle", o.tan_vibration_angle.value_or("0.5"), "0.5", 1e-9, 1e6);
-    in.tan_alpha =
-        read_number_within("--tan-inclination", o.tan_inclination.value_or("0"), "-0.05", -1e6, 1e6);
-    in.mu = read_number_within("--friction", required("--friction", o.friction, "0.35"), "0.35", 1e-6, 1e6);
+    in.tan_beta = std::max(o.quantities.value("--tan-vibration-angle").value_or(0.5), 1e-9);
+    in.tan_alpha = o.quantities.value("--tan-inclination").value_or(0);
+    in.mu = o.quantities.required("--friction");
     tell_unusual(theory::MachineNumbers{{}, {}, {}, in.mu, std::atan(in.tan_beta)});
     if (std::abs(in.tan_alpha) >= in.mu) {
         throw core::InputError(fmt::format(
             "--friction {}: is not above |tan(alpha)| = {:g}, so that the mass runs away; write a "
             "larger friction",
-            *o.friction, std::abs(in.tan_alpha)));
+            in.mu, std::abs(in.tan_alpha)));
     }
     return in;
 }
@@ -55,10 +54,9 @@ Json answers(TheoryLimitsArguments const& options, Inputs const& in) {
         {"small_angle_efficiency", limits.small_angle_efficiency},
         {"pn_machine_number_level_small_angle", limits.pn_machine_number},
     };
-    if (!options.throw_number) return json;
-    double const gamma = read_number_within("--throw-number", *options.throw_number, "0.8", 1e-9,
-                                            theory::largest_throw_number);
-    auto const pn = theory::pn_motion({gamma, in.tan_beta, in.tan_alpha, in.mu});
+    auto const gamma = options.quantities.value("--throw-number");
+    if (!gamma) return json;
+    auto const pn = theory::pn_motion({*gamma, in.tan_beta, in.tan_alpha, in.mu});
     json["pn_closed_form"] = nullptr;
     if (pn) {
         json["pn_closed_form"] = {{"positive_start_rad", pn->positive_start},
@@ -104,13 +102,11 @@ void add_theory_limits(CLI::App& theory, int& exit_code) {
         "limits",
         "Print the closed-form results of the theory, such as the throw number of maximum efficiency");
     auto const options = std::make_shared<TheoryLimitsArguments>();
-    command->add_option("--friction", options->friction,
-                        "mu, friction coefficient of the mass on the trough");
-    command->add_option("--tan-vibration-angle", options->tan_vibration_angle, "tan(beta); default: 0.5");
-    command->add_option("--tan-inclination", options->tan_inclination,
-                        "tan(alpha), uphill positive; default: 0");
-    command->add_option("--throw-number", options->throw_number,
-                        "Gamma; with it, the PN mode in closed form is printed too");
+    options->quantities.add_to(*command,
+                               {{"--friction"},
+                                {"--tan-vibration-angle", "; default: 0.5"},
+                                {"--tan-inclination", ", uphill positive; default: 0"},
+                                {"--throw-number", "; with it, the PN mode in closed form is printed"}});
     command->add_flag("--json", options->json, "Print JSON");
     command->footer(
         std::string(

@@ -21,8 +21,8 @@ namespace {
 struct TheoryMapArguments {
     TheoryOptions motion;
     RollingOption rolling;
-    StartsOption starts;
-    Text x, y, output, jobs;
+    QuantityOptions counts;
+    Text x, y, output;
 };
 
 char const* const axis_example = "throw_number=0.3:3.3:500";
@@ -84,7 +84,7 @@ void run_theory_map(TheoryMapArguments const& options) {
         throw core::InputError(
             fmt::format("--output {}: must end in .h5; write for example --output map.h5", output.string()));
     }
-    int const jobs = options.jobs ? read_count("--jobs", *options.jobs, "2", 1, 4096) : 0;
+    int const jobs = static_cast<int>(options.counts.value("--jobs").value_or(0));
     theory::Inputs const fixed = options.motion.given();
     options.motion.tell_unusual();
     refuse_given_axis(fixed, x);
@@ -94,7 +94,7 @@ void run_theory_map(TheoryMapArguments const& options) {
     complete.set(y.input, y.from);
     require_complete(complete);
     auto const law = options.rolling.law();
-    int const starts = options.starts.count(law.has_value());
+    int const starts = count_starts(options.counts, law.has_value());
     auto const stem = output.parent_path() / output.stem();
     std::filesystem::path const image = stem.string() + ".vti", lines = stem.string() + "_modes.vtp";
     theory::Map map;
@@ -136,10 +136,9 @@ void add_theory_map(CLI::App& theory, int& exit_code) {
     command->add_option("--y", options->y, "Second axis, written in the same way");
     command->add_option("--output", options->output,
                         "HDF5 file to write; the .vti and .vtp files for ParaView get the same name");
-    command->add_option("--jobs", options->jobs, "Number of threads; default: all cores");
     options->motion.add_to(*command);
     options->rolling.add_to(*command);
-    options->starts.add_to(*command);
+    options->counts.add_to(*command, {{"--jobs"}, {"--starts"}});
     command->footer(
         view::vtk_help() +
         std::string(

@@ -1,6 +1,7 @@
-#include "app/commands/theory/options.hpp"
+#include "app/commands/option_table.hpp"
 #include "core/error.hpp"
 #include "core/quantity.hpp"
+#include "core/text.hpp"
 #include "core/typed_unit.hpp"
 #include "theory/unusual.hpp"
 
@@ -23,15 +24,15 @@ bool is_range(std::string const& text, std::smatch& ends) {
            std::regex_match(text, ends, between_units);
 }
 
-/// What is wrong with a value.
-std::string problem_of(std::string const& text, core::QuantityError const& error) {
+/// What is wrong with the text of an option, and what to write, unless the error says that itself.
+[[noreturn]] void fail(std::string const& option, std::string const& text, core::QuantityError const& error,
+                       std::string const& advice) {
     std::smatch ends;
-    return is_range(text, ends) ? "is a range, and here one value is needed" : error.what();
-}
-
-/// The problem with what to write, unless it says that itself.
-std::string with_advice(std::string const& problem, std::string const& advice) {
-    return problem.find("; write ") == problem.npos ? fmt::format("{}; {}", problem, advice) : problem;
+    bool const is_whole_range = is_range(text, ends);
+    throw core::InputError(
+        fmt::format("{} {}: {}; {}", option, text,
+                    is_whole_range ? "is a range, and here one value is needed" : error.problem(),
+                    is_whole_range || error.advice().empty() ? advice : error.advice()));
 }
 
 /// Of a plain number that is out of its range, which slip would explain it.
@@ -47,11 +48,8 @@ double read_quantity(std::string const& option, std::string const& text, std::st
     try {
         return core::parse_quantity(text, unit);
     } catch (core::QuantityError const& error) {
-        throw core::InputError(fmt::format(
-            "{} {}: {}", option, text,
-            with_advice(
-                problem_of(text, error),
-                fmt::format("write a number with its unit, for example {} \"{}\"", option, example))));
+        fail(option, text, error,
+             fmt::format("write a number with its unit, for example {} \"{}\"", option, example));
     }
 }
 
@@ -74,9 +72,7 @@ double read_number(std::string const& option, std::string const& text, std::stri
     try {
         return core::parse_number(text);
     } catch (core::QuantityError const& error) {
-        throw core::InputError(fmt::format(
-            "{} {}: {}", option, text,
-            with_advice(problem_of(text, error), fmt::format("write for example {} {}", option, example))));
+        fail(option, text, error, fmt::format("write for example {} {}", option, example));
     }
 }
 
@@ -156,23 +152,42 @@ theory::Range read_range(std::string const& option, std::string const& text, std
                     option, example));
 }
 
-double read_quantity_within(std::string const& option, std::string const& text, std::string const& unit,
-                            std::string const& example, double low, double high) {
-    double const value = read_positive_quantity(option, text, unit, example);
-    if (value >= low && value <= high) return value;
-    throw core::InputError(fmt::format("{} {}: must lie between {}{}; write for example {} \"{}\"", option,
-                                       text, core::range_in_unit_of(text, low, high, unit, " and "),
-                                       core::slip_of_unit(text, low, high, unit), option, example));
+double read_option(std::string_view name, std::string const& text) {
+    OptionRow const& row = option_row(name);
+    if (row.is_whole)
+        return read_count(row.name, text, row.example, static_cast<int>(row.least),
+                          static_cast<int>(row.most));
+    if (row.unit.empty()) return read_number_within(row.name, text, row.example, row.least, row.most);
+    double const value = read_quantity(row.name, text, row.unit, row.example);
+    if (value >= row.least && value <= row.most) return value;
+    throw core::InputError(fmt::format("{} {}: must lie between {}{}; write for example {}", row.name, text,
+                                       core::range_in_unit_of(text, row.least, row.most, row.unit, " and "),
+                                       core::slip_of_unit(text, row.least, row.most, row.unit),
+                                       row.written_example()));
 }
 
-double read_angle(std::string const& option, std::string const& text, std::string const& example,
-                  double low_deg, double high_deg) {
-    double const angle = read_quantity(option, text, "radian", example);
-    double const low = std::abs(low_deg) < 1e-6 ? 0 : low_deg * degree, high = high_deg * degree;
-    if (angle > low_deg * degree && angle < high) return angle;
-    throw core::InputError(fmt::format("{} {}: must lie between {}{}; write for example {} \"{}\"", option,
-                                       text, core::range_in_unit_of(text, low, high, "radian", " and "),
-                                       core::slip_of_unit(text, low, high, "radian"), option, example));
+theory::Range read_option_range(std::string_view name, std::string const& text) {
+    return read_range(std::string(name), text, option_row(name).example,
+                      [&](std::string const& one) { return read_option(name, one); });
+}
+
+learn::Uncertain read_uncertain_option(std::string_view name, std::string const& text) {
+    for (std::string const sign : {"+-", "\u00b1", "+/-"}) {
+        auto const at = text.find(sign);
+        if (at == std::string::npos) continue;
+        std::string mean = text.substr(0, at);
+        std::string const sd = text.substr(at + sign.size());
+        bool const has_unit = mean.find_first_not_of("0123456789.,eE+- ") != std::string::npos;
+        OptionRow const& row = option_row(name);
+        // The unit of the second stands for both.
+        if (!row.unit.empty() && !has_unit)
+            mean += " " + sd.substr(std::min(sd.find_first_not_of("0123456789.,eE+- "), sd.size()));
+        double const error = row.unit.empty() ? read_number_within(row.name, sd, row.example, 0, row.most)
+                                              : read_positive_quantity(row.name, sd, row.unit, row.example);
+        return {read_option(name, mean), error};
+    }
+    auto const [low, high] = read_option_range(name, text);
+    return low == high ? learn::Uncertain{low} : learn::between_ends(low, high);
 }
 
 }  // namespace vibrotrough::app

@@ -20,7 +20,7 @@ namespace {
 struct TheoryPointArguments {
     TheoryOptions motion;
     RollingOption rolling;
-    Text bulk_density, layer_height, layer_width;
+    QuantityOptions layer;
     bool json = false;
 };
 
@@ -123,31 +123,25 @@ void print_text(theory::Conveyor const& input, theory::ConveyorMotion const& ans
 /// The machine with its layer; none without an amplitude, from which all of these quantities follow.
 std::optional<theory::Machine> read_machine(TheoryPointArguments const& o) {
     auto machine = o.motion.machine();
-    auto const read = [&](char const* option, Text const& text, char const* unit, char const* example,
-                          double theory::Machine::*value) {
-        if (!text) return;
-        double const quantity = read_positive_quantity(option, *text, unit, example);
+    auto const read = [&](char const* option, double theory::Machine::*value) {
+        auto const quantity = o.layer.value(option);
+        if (!quantity) return;
         if (!machine) {
             throw core::InputError(fmt::format(
-                "{} {}: needs the amplitude of the machine; write for example --amplitude \"6 mm\"", option,
-                *text));
+                "{}: needs the amplitude of the machine; write for example --amplitude \"6 mm\"", option));
         }
-        (*machine).*value = quantity;
+        (*machine).*value = *quantity;
     };
-    read("--bulk-density", o.bulk_density, "kg/m3", "800 kg/m3", &theory::Machine::bulk_density);
-    read("--layer-height", o.layer_height, "m", "12 mm", &theory::Machine::layer_height);
-    read("--layer-width", o.layer_width, "m", "200 mm", &theory::Machine::layer_width);
+    read("--bulk-density", &theory::Machine::bulk_density);
+    read("--layer-height", &theory::Machine::layer_height);
+    read("--layer-width", &theory::Machine::layer_width);
     return machine;
 }
 
 /// What a rolling layer has instead of the point mass.
 theory::ConveyorMotion solve_rolling(TheoryPointArguments const& options, theory::Conveyor const& input,
                                      theory::RollingLaw const& law) {
-    if (!options.motion.plastic()) {
-        throw core::InputError(
-            "--rolling-layer: the law has only a sinusoidal drive, inclination and friction; leave the other "
-            "options out");
-    }
+    require_plastic(options.motion);
     theory::ConveyorMotion answer;
     answer.motion = theory::solve(theory::RollingLayer{input.point, law}).motion;
     return answer;
@@ -204,10 +198,7 @@ void withhold(theory::Conveyor const& input, std::string const& why, bool json) 
 /// A motion that runs away has no speed, which a script must notice.
 int run_theory_point(TheoryPointArguments const& options) {
     // First: a slip often explains an error, too.
-    options.motion.tell_unusual(options.bulk_density
-                                    ? std::optional(read_positive_quantity(
-                                          "--bulk-density", *options.bulk_density, "kg/m3", "800 kg/m3"))
-                                    : std::nullopt);
+    options.motion.tell_unusual(options.layer.value("--bulk-density"));
     theory::Conveyor const input = options.motion.conveyor();
     auto const law = options.rolling.law();
     check_machine_number(input);
@@ -248,13 +239,8 @@ void add_theory_point(CLI::App& theory, int& exit_code) {
     auto const options = std::make_shared<TheoryPointArguments>();
     options->motion.add_to(*command);
     options->rolling.add_to(*command);
-    auto const add = [&](char const* name, Text& text, char const* help) {
-        command->add_option(name, text, help)->group("The layer");
-    };
-    add("--bulk-density", options->bulk_density,
-        "Of the layer, for the mass flow, for example \"800 kg/m3\"");
-    add("--layer-height", options->layer_height, "For the mass flow, for example \"12 mm\"");
-    add("--layer-width", options->layer_width, "For the mass flow, for example \"200 mm\"");
+    options->layer.add_to(*command, {{"--bulk-density"}, {"--layer-height"}, {"--layer-width"}},
+                          "The layer, for the mass flow");
     command->add_flag("--json", options->json,
                       "Print JSON, with phases as angles omega t in rad and displacements in r cos(beta)");
     command->footer(
@@ -270,11 +256,6 @@ is listed with its velocity efficiency and the fraction of the starts that lead 
 
 )") + mode_letters +
         R"(
-
-Exit codes:
-    0  the motion has a velocity efficiency
-    1  it runs away downhill and has none, or the rolling-layer law has not been tested there
-    2  the input is wrong
 
 Example:
   vibrotrough theory point --throw-number 2 --vibration-angle "30 deg" --friction 0.23

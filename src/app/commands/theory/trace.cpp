@@ -20,7 +20,8 @@ namespace {
 struct TheoryTraceArguments {
     TheoryOptions motion;
     RollingOption rolling;
-    Text samples, output;
+    QuantityOptions count;
+    Text output;
 };
 
 /// The trace as CSV with the columns time, phase and then all other numbers.
@@ -45,11 +46,7 @@ struct Table {
 Table trace_rolling(TheoryTraceArguments const& options, theory::Conveyor const& input,
                     theory::RollingLaw const& law, int samples,
                     std::optional<theory::Machine> const& machine) {
-    if (!options.motion.plastic()) {
-        throw core::InputError(
-            "--rolling-layer: the law has only a sinusoidal drive, inclination and friction; leave the other "
-            "options out");
-    }
+    require_plastic(options.motion);
     if (auto const why = theory::outside_tested_range(input.point);
         why && !options.rolling.accepts_untested())
         throw core::InputError(*why + "; write other inputs, or accept that with --accept-untested");
@@ -91,8 +88,7 @@ void write(TheoryTraceArguments const& options, int samples, Table const& table)
 }
 
 void run_theory_trace(TheoryTraceArguments const& options) {
-    int const samples =
-        options.samples ? read_count("--samples", *options.samples, "721", 2, 10'000'000) : 721;
+    int const samples = static_cast<int>(options.count.value("--samples").value_or(721));
     options.motion.tell_unusual();
     theory::Conveyor const input = options.motion.conveyor();
     auto const machine = options.motion.machine();
@@ -118,7 +114,7 @@ void add_theory_trace(CLI::App& theory, int& exit_code) {
     auto const options = std::make_shared<TheoryTraceArguments>();
     options->motion.add_to(*command);
     options->rolling.add_to(*command);
-    command->add_option("--samples", options->samples, "Number of lines; default: 721");
+    options->count.add_to(*command, {{"--samples"}});
     command->add_option("--output", options->output, "CSV file to write; default: standard output");
     command->footer(
         std::string(

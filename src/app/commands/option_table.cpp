@@ -1,0 +1,196 @@
+#include "app/commands/option_table.hpp"
+
+#include "scenario/reader/keys.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+constexpr double any_positive = 1e-12;
+
+/// The option of a key of the campaign file.
+OptionRow of_key(char const* name, char const* path, char const* input = nullptr, double of_unit = 1) {
+    scenario::Key const& key = *scenario::find_key(path);
+    std::string example(key.example);
+    std::erase(example, '"');
+    OptionRow row{name, std::string(key.unit), key.least, key.most, example, std::string(key.meaning)};
+    if (input != nullptr) row.of_theory = input;
+    row.of_unit = of_unit;
+    return row;
+}
+
+/// The same with limits of its own.
+OptionRow within(double least, double most, OptionRow row) {
+    row.least = least;
+    row.most = most;
+    return row;
+}
+
+/// A whole number.
+OptionRow whole(OptionRow row) {
+    row.is_whole = true;
+    return row;
+}
+
+/// A plain number that the theory has beyond the keys of the campaign file.
+OptionRow of_theory(char const* name, double least, double most, char const* example, char const* meaning) {
+    OptionRow row{name, "", least, most, example, meaning};
+    std::string input = std::string(name).substr(2);
+    std::ranges::replace(input, '-', '_');
+    row.of_theory = input;
+    return row;
+}
+
+std::vector<OptionRow> const& table() {
+    static std::vector<OptionRow> const rows{
+        // What the campaign file has, too. The theory goes further than decks do.
+        within(1e-3, 100, of_key("--throw-number", "trough.throw_number", "throw_number")),
+        of_key("--machine-number", "trough.machine_number", "machine_number"),
+        of_key("--vibration-angle", "trough.vibration_angle"),
+        of_key("--tan-vibration-angle", "trough.tan_vibration_angle", "tan_vibration_angle"),
+        of_key("--inclination", "trough.inclination"),
+        of_key("--tan-inclination", "trough.tan_inclination", "tan_inclination"),
+        of_key("--friction", "trough.friction", "friction"),
+        of_key("--frequency", "trough.frequency"),
+        of_key("--amplitude", "trough.amplitude", "amplitude_m"),
+        of_key("--stroke", "trough.stroke"),
+        of_key("--along-phase", "trough.along_phase", "along_phase_deg", degree),
+        of_key("--width", "trough.width"),
+        of_key("--bulk-density", "grains.bulk_density"),
+        of_key("--grain-diameter", "grains.diameter"),
+        of_key("--rolling-friction", "grains.rolling_friction"),
+        of_key("--grain-friction", "grains.friction"),
+        of_key("--layer-height", "layer.height"),
+        of_key("--layer-width", "layer.width"),
+        // The theory's own.
+        {"--gravity", "m/s2", 1e-3, 1e3, "9.81 m/s2", "Default: \"9.81 m/s2\""},
+        of_theory("--restitution", 0, 0.95, "0.2",
+                  "e, normal restitution coefficient, from 0 (plastic, default) to 0.95 (Eq. 23)"),
+        {"--slowest-rebound", "", 1e-9, 1, "1e-6",
+         "Rebounds slower than this count as contact, in omega r sin(beta); default: 1e-6"},
+        of_theory("--static-friction", 0, 5, "0.4",
+                  "Static friction coefficient, at least --friction, which is then the kinetic one"),
+        of_theory("--landing-friction", 0, 5, "0.1",
+                  "Friction coefficient during a landing: the ratio of tangential to normal impulse that it "
+                  "can reach; default: mu"),
+        of_theory("--air-drag", 0, 1000, "0.01", "kappa: the drag force is m omega kappa times the velocity"),
+        of_theory("--along-ratio", -1000, 1000, "0.8",
+                  "Elliptical drive: amplitude along the trough over r cos(beta)"),
+        of_theory("--wall-friction", 0, 1000, "0.3", "Friction coefficient of the layer on the side walls"),
+        of_theory("--wall-pressure-ratio", 0, 1, "0.5",
+                  "Janssen's k, horizontal over vertical stress; default: 0.5"),
+        of_theory("--height-over-width", 0, 1000, "0.2",
+                  "Height of the layer over its width, for side-wall friction"),
+        {"--max-relative-displacement", "", 1e-9, 1000, "1.5",
+         "Measured slip from peak to peak, in amplitudes r, from 0 to 2"},
+        // Of a design.
+        {"--length", "m", 1e-3, 1e3, "3 m", "Of the trough, for power and time, for example \"3 m\""},
+        {"--layer-depth", "m", 1e-6, 10, "5 mm to 60 mm",
+         "Range of the layer's depth; default: \"2 mm to 100 mm\""},
+        {"--friction-uncertainty", "", 0, 1, "0.03",
+         "Its standard uncertainty (one standard deviation), instead of +-; default: 0"},
+        {"--stroke-uncertainty", "m", any_positive, 1, "0.2 mm",
+         "Standard uncertainty of the stroke as it is set, for example \"0.2 mm\"; default: exact"},
+        {"--angle-uncertainty", "radian", any_positive, 20 * degree, "0.5 deg",
+         "Standard uncertainty of the vibration angle as it is set, for example \"0.5 deg\"; default: exact"},
+        {"--landing-speed", "m/s", any_positive, 1e3, "0.3 m/s",
+         "Largest speed of the material relative to the trough at an impact, for example \"0.3 m/s\""},
+        {"--confidence", "", 0.5, 0.999, "0.95",
+         "Probability with which the mass flow is to be reached; default: 0.95"},
+        {"--model-discrepancy", "", 0, 1, "0.05",
+         "Standard deviation of what every model misses, in velocity efficiency; default: what simulated "
+         "layers say at the throw number, slope and depth (validation/model_errors), for the calibrated "
+         "model "
+         "what --posterior says, and for a surface its own uncertainty alone"},
+        {"--trough-mass", "kg", any_positive, 1e9, "180 kg",
+         "Of all that moves, with the motors and without material, for example \"180 kg\"; with --length, "
+         "the exciter that the stroke needs is told"},
+        {"--spring", "N/m", any_positive, 1e15, "200 N/mm",
+         "Stiffness of all springs in the direction of vibration, for example \"200 N/mm\"; default: so soft "
+         "that it does not count"},
+        {"--added-mass", "", -1, 1, "0.17",
+         "Part of the material's mass that moves with the trough, from added_mass_fraction of a campaign or "
+         "written like --friction; default: that of the atlas' layers, else \"0.10 to 0.25\" "
+         "(NetterVibration)"},
+        {"--mains", "Hz", 1, 400, "50 Hz",
+         "f, frequency of the mains for --poles, in Hz: 50, or 60 as in America"},
+        {"--slip", "", 0, 0.3, "0.03",
+         "Slip of these motors, by which fraction they are slower than their field, such as 0.03; default: "
+         "0"},
+        // Of calibrations and of learning.
+        {"--uncertainty", "", 0, 1000, "0.03", ""},
+        {"--common-error", "", 0, 0.5, "0.05",
+         "Standard deviation of an error of the model that is the same in all measurements, in velocity "
+         "efficiency, for example 0.05; it looks like another friction and widens its interval; default: 0, "
+         "and in theory calibrate what the point mass misses at layers of the atlas"},
+        whole({"--seed", "", 0, 1e9, "1", "Of the random numbers; default: 1"}),
+        {"--half-width", "", 1e-4, 1, "0.03",
+         "Largest half-width of the 95 % interval wanted anywhere in the domain, statistics and numerical "
+         "errors together, for example 0.05"},
+        whole({"--batch", "", 1, 1000, "8",
+               "Cases that are chosen at once; default: as many as keep all jobs busy"}),
+        {"--precision", "", 0.005, 1, "0.1",
+         "How much larger the smallest feed that is not carried may be than the largest that is, as a share "
+         "of it; default 0.1"},
+        whole({"--jobs", "", 1, 4096, "2", "Cores to use; default: all"}),
+        whole({"--samples", "", 2, 1e7, "721", "Number of lines; default: 721"}),
+        whole({"--starts", "", 2, 1e6, "64",
+               "Follow so many starts of each motion, for example 64, and write to which motions they lead: "
+               "with rebounds there can be several. Default: the standard start alone, at rest at t = 0"}),
+    };
+    return rows;
+}
+
+}  // namespace
+
+std::string OptionRow::written_example() const {
+    return fmt::format(fmt::runtime(unit.empty() ? "{} {}" : "{} \"{}\""), name, example);
+}
+
+OptionRow const& option_row(std::string_view name) {
+    auto const found = std::ranges::find(table(), name, &OptionRow::name);
+    if (found == table().end()) throw std::out_of_range(std::string(name));
+    return *found;
+}
+
+void QuantityOptions::add_to(CLI::App& command, std::initializer_list<Wanted> wanted,
+                             std::string const& group) {
+    for (Wanted const& one : wanted) {
+        std::string const& meaning = *one.instead != '\0' ? one.instead : option_row(one.name).meaning;
+        CLI::Option* const option = command.add_option(one.name, texts_[one.name], meaning + one.more);
+        if (!group.empty()) option->group(group);
+    }
+}
+
+std::optional<double> QuantityOptions::value(std::string const& name) const {
+    return has(name) ? std::optional(read_option(name, *text(name))) : std::nullopt;
+}
+
+double QuantityOptions::required(std::string const& name) const {
+    OptionRow const& row = option_row(name);
+    return read_option(name, app::required(name, text(name), row.written_example().substr(name.size() + 1)));
+}
+
+std::optional<learn::Uncertain> QuantityOptions::uncertain(std::string const& name) const {
+    return has(name) ? std::optional(read_uncertain_option(name, *text(name))) : std::nullopt;
+}
+
+void QuantityOptions::set_inputs(theory::Inputs& inputs) const {
+    for (auto const& [name, text] : texts_) {
+        OptionRow const& row = option_row(name);
+        if (text && row.of_theory)
+            inputs.set(*theory::input_named(*row.of_theory), read_option(name, *text) / row.of_unit);
+    }
+}
+
+void QuantityOptions::refuse_both(std::string const& first, std::string const& second) const {
+    app::refuse_both(first, text(first), second, text(second));
+}
+
+}  // namespace vibrotrough::app
