@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/exit_code.hpp"
+
 namespace CLI {
 class App;
 }
@@ -14,8 +16,9 @@ constexpr char const* mode_letters =
 
 /// @name Commands
 /// Each function adds one command to the program: its options, its help and what it runs. It is defined in
-/// the file of the same name in commands/; `report` is in plot.cpp, and `manual` and `completion` are in
-/// pages.cpp. A command stores its exit code in `exit_code`. It throws errors, and main() prints them.
+/// the file of the same name in commands/; `tutorial` is in init.cpp, `report` in plot.cpp, and `manual` and
+/// `completion` are in pages.cpp. A command stores its exit code in `exit_code`. It throws errors, and main()
+/// prints them.
 /// @{
 
 void add_init(CLI::App& program, int& exit_code);
