@@ -61,6 +61,11 @@ void check_setup(RunOptions const& options, scenario::RunSettings const& setting
 
 }  // namespace
 
+void tell_left_aside(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
+    std::string const words = describe(campaign::find_left_aside(plan, cases), plan);
+    if (!words.empty()) tell("vibrotrough: left aside: {}\n", words);
+}
+
 void RunOptions::add_to(CLI::App& command) {
     add_campaign_file(command, campaign_file);
     add_results_folder(command, output);

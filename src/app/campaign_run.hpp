@@ -1,6 +1,7 @@
 #pragma once
 
 #include "campaign/execute/campaign_driver.hpp"
+#include "campaign/state/left_aside.hpp"
 #include "core/parallel.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -14,6 +15,10 @@ class App;
 }
 
 namespace vibrotrough::app {
+
+/// Says in one line on standard error what of a campaign's folder is not in what the command shows. Says
+/// nothing when nothing is left aside.
+void tell_left_aside(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases);
 
 /// The options of every command that simulates a campaign.
 struct RunOptions {
@@ -73,8 +78,9 @@ struct ReadyCampaign {
 ReadyCampaign prepare_run(RunOptions const& options);
 
 /// Simulates the cases of a campaign, shows the progress as asked, logs it, and writes campaign.h5.
-campaign::Summary drive_campaign(RunOptions const& options, ReadyCampaign& ready, campaign::Policy const& policy,
-                        campaign::Until until, campaign::ExecutorKind const& kind);
+campaign::Summary drive_campaign(RunOptions const& options, ReadyCampaign& ready,
+                                 campaign::Policy const& policy, campaign::Until until,
+                                 campaign::ExecutorKind const& kind);
 
 /// Makes the tasks of a cluster take several packings each, so that a task lasts about `minutes`; the
 /// duration of a packing comes from the campaign's forecast. Nothing: one packing per task.

@@ -3,7 +3,6 @@
 #include "app/exit_code.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <sstream>
 #include <vector>
 

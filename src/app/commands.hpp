@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/exit_code.hpp"
+
 namespace CLI {
 class App;
 }
@@ -12,11 +14,11 @@ constexpr char const* mode_letters =
     "trough, "
     "F flies; P' and N' are slides that start with a landing.";
 
-/// @name Commands
-/// Each function adds one command to the program: its options, its help and what it runs. It is defined in
-/// the file of the same name in commands/; `report` is in plot.cpp, and `manual` and `completion` are in
-/// pages.cpp. A command stores its exit code in `exit_code`. It throws errors, and main() prints them.
-/// @{
+// Each function adds one command to the program: its options, its help and what it runs. It is defined in
+// the file of the same name in commands/; `tutorial` is in init.cpp, `report` in plot.cpp, and `manual` and
+// `completion` are in pages.cpp. A command stores its exit code in `exit_code`. It throws errors, and main()
+// prints them.
+/// @cond its name says what each adds
 
 void add_init(CLI::App& program, int& exit_code);
 void add_tutorial(CLI::App& program, int& exit_code);
@@ -57,6 +59,6 @@ void add_theory_design(CLI::App& theory, int& exit_code);
 void add_theory_batch(CLI::App& theory, int& exit_code);
 void add_theory_calibrate(CLI::App& theory, int& exit_code);
 
-/// @}
+/// @endcond
 
 }  // namespace vibrotrough::app

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,10 @@ namespace vibrotrough::app {
 
 /// A number, or null where it is not known.
 nlohmann::ordered_json number_or_null(std::optional<double> const& value);
+
+/// Prints rows with the same members as CSV: nothing for null, 1 and 0 for true and false, and the elements
+/// of a list with blanks between them.
+void print_csv(std::vector<nlohmann::ordered_json> const& rows);
 
 /// Prints a JSON object with a list of any length at its end, element by element, so that only one of them is
 /// in memory: 100,000 cases as a whole would take hundreds of megabytes.

@@ -1,13 +1,11 @@
 #include "app/learning.hpp"
 
 #include "app/commands/option_table.hpp"
-#include "app/progress_log.hpp"
 #include "app/standard_streams.hpp"
 #include "campaign/schedule/until_precise.hpp"
 #include "campaign/state/added_cases.hpp"
 #include "campaign/state/overview.hpp"
 #include "core/error.hpp"
-#include "scenario/reader/swept_keys.hpp"
 
 #include <algorithm>
 #include <filesystem>

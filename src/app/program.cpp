@@ -1,25 +1,26 @@
 #include "app/program.hpp"
 
+#include "app/build_data.hpp"
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "app/help_formatter.hpp"
 #include "app/process.hpp"
 #include "app/standard_streams.hpp"
-#include "app/version_text.hpp"
 #include "app/with_vtk.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "core/version.hpp"
+#include "engine/engine.hpp"
+#include "view/vtk.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <new>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -65,6 +66,24 @@ What do you want to do?
       vibrotrough convergence runs/pellets
   see the grains in ParaView:
       vibrotrough export runs/pellets)";
+
+/// The LIGGGHTS on the PATH.
+std::string engine_line() {
+    try {
+        engine::Engine const engine = engine::find_engine({});
+        return fmt::format("{}, {}", engine.program.string(), engine.version);
+    } catch (core::Error const& error) {
+        return fmt::format("none ({})", error.what());
+    }
+}
+
+/// What --version prints: program, commit, compiler, libraries and engine, a line each. The first line is
+/// "vibrotrough VERSION (COMMIT)".
+std::string version_text() {
+    return fmt::format("vibrotrough {} ({})\ncompiler   {}\nlibraries  {}, {}\nengine     {}",
+                       core::program_version(), core::program_commit(), build_compiler, build_libraries,
+                       view::vtk_name(), engine_line());
+}
 
 void add_commands(CLI::App& program, int& exit_code) {
     add_tutorial(program, exit_code);

@@ -7,11 +7,10 @@
 #include "core/version.hpp"
 
 #include <cmath>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 namespace vibrotrough::app {
@@ -84,25 +83,17 @@ void JsonProgress::noticed(campaign::PlannedCase const& planned, std::string con
     tell("{}\n", json.dump(-1, ' ', true, Json::error_handler_t::replace));
 }
 
-CampaignLog::CampaignLog(std::filesystem::path const& folder) {
-    try {
-        logger_ = std::make_shared<spdlog::logger>(
-            "campaign",
-            std::make_shared<spdlog::sinks::basic_file_sink_mt>((folder / "campaign.log").string()));
-        logger_->set_pattern("%Y-%m-%dT%H:%M:%SZ %l %v", spdlog::pattern_time_type::utc);
-        logger_->flush_on(spdlog::level::info);
-        logger_->set_error_handler([](std::string const&) {});
-    } catch (spdlog::spdlog_ex const&) {
-        logger_ = nullptr;
-    }
+void CampaignLog::add(char const* level, std::string const& line) const {
+    std::ofstream(file_, std::ios::app)
+        << core::utc_now() << ' ' << level << ' ' << core::harmless(line) << '\n';
 }
 
 void CampaignLog::info(std::string const& line) const {
-    if (logger_) logger_->info("{}", core::harmless(line));
+    add("info", line);
 }
 
 void CampaignLog::warn(std::string const& line) const {
-    if (logger_) logger_->warn("{}", core::harmless(line));
+    add("warning", line);
 }
 
 LoggingObserver::LoggingObserver(campaign::Observer& next, std::filesystem::path folder)

@@ -7,10 +7,6 @@
 #include <set>
 #include <string>
 
-namespace spdlog {
-class logger;  // NOLINT(readability-identifier-naming): spdlog's name
-}
-
 namespace vibrotrough::app {
 
 /// Prints progress as JSON on standard error, one object per line. Its member "event" is "progress" (at most
@@ -42,15 +38,17 @@ class NoProgress : public campaign::Observer {
 /// the disk is full, the log ends but the campaign continues.
 class CampaignLog {
   public:
-    /// Opens the log file in the folder of a campaign.
-    explicit CampaignLog(std::filesystem::path const& folder);
+    /// The log file in the folder of a campaign.
+    explicit CampaignLog(std::filesystem::path const& folder) : file_(folder / "campaign.log") {}
     /// Adds a line of level info.
     void info(std::string const& line) const;
     /// Adds a line of level warning.
     void warn(std::string const& line) const;
 
   private:
-    std::shared_ptr<spdlog::logger> logger_;  ///< none when the file cannot be opened
+    void add(char const* level, std::string const& line) const;
+
+    std::filesystem::path file_;
 };
 
 /// Writes the events of a run to the log and passes them on to another observer.
@@ -71,7 +69,7 @@ class LoggingObserver : public campaign::Observer {
     void stopping() override;
 
   private:
-    CampaignLog const& log();
+    CampaignLog const& log();  ///< begins the log
 
     campaign::Observer& next_;
     std::filesystem::path folder_;

@@ -1,18 +1,22 @@
 #include "app/python.hpp"
 
 #include "app/script_folder.hpp"
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/own_program.hpp"
+#include "core/temporary_folder.hpp"
+#include "core/time.hpp"
+#include "core/version.hpp"
 
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,22 +26,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a script's Python tells that it has all modules: the write end of a pipe has this number there.
-constexpr int proof_of_modules = 9;
+/// With which a script's Python ends that has not all modules.
+constexpr int missing_modules = 97;
 
 /// Runs Python in `folder`. Its exit code, or 128 + n when signal n ended it; nothing when the program could
-/// not be started, or has not all modules or is no Python: only starter() writes the proof.
+/// not be started, or has not all modules.
 std::optional<int> run_python(std::vector<std::string> words, fs::path const& folder) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    int pipe[2];
-    if (::pipe2(pipe, O_CLOEXEC | O_NONBLOCK) != 0)
-        throw core::MissingError(fmt::format("cannot start {} ({})", words.front(), core::reason_of(errno)));
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    posix_spawn_file_actions_adddup2(&actions, pipe[1], proof_of_modules);
     std::fflush(stdout);
     pid_t child = 0;
     int const failure = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
@@ -45,15 +45,12 @@ std::optional<int> run_python(std::vector<std::string> words, fs::path const& fo
     int status = 0;
     bool ended = failure == 0;
     while (ended && ::waitpid(child, &status, 0) < 0) ended = errno == EINTR;
-    char proof = 0;
-    bool const proved = ::read(pipe[0], &proof, 1) == 1;
-    ::close(pipe[0]);
-    ::close(pipe[1]);
     if (failure == EAGAIN || failure == EMFILE) {
         throw core::MissingError(
             fmt::format("cannot start {} ({})", words.front(), core::reason_of(failure)));
     }
-    if (!ended || !proved) return {};
+    bool const has_modules = !WIFEXITED(status) || WEXITSTATUS(status) != missing_modules;
+    if (!ended || !has_modules) return {};
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -70,9 +67,7 @@ std::string starter(std::vector<std::string> const& modules) {
 try:
     import {}
 except Exception:
-    sys.exit(1)
-os.write({}, b"1")
-os.close({})
+    sys.exit({})
 del sys.argv[0]
 if sys.path[:1] == [""]:
     del sys.path[0]
@@ -82,7 +77,7 @@ with open(__file__, "rb") as script:
     text = script.read()
 exec(compile(text, __file__, "exec"))
 )",
-                       fmt::join(modules, ", "), proof_of_modules, proof_of_modules);
+                       fmt::join(modules, ", "), missing_modules);
 }
 
 }  // namespace
@@ -137,6 +132,19 @@ void check_script(std::string const& script, int code) {
         throw core::MissingError(
             fmt::format("{} ended with exit code {}; the reason is in its messages above", script, code));
     }
+}
+
+void write_decision_page(nlohmann::ordered_json data, std::string const& kind, std::string const& file,
+                         std::string const& python) {
+    data["kind"] = kind;
+    data["made"] = {{"program_version", core::program_version()},
+                    {"git_commit", core::program_commit()},
+                    {"written", core::utc_now()}};
+    core::TemporaryFolder const folder("vibrotrough-page");
+    auto const path = folder.path() / "decision.json";
+    core::write_file_atomically(path, data.dump());
+    run_script("decision_page.py", {path.string(), "--output", std::filesystem::absolute(file).string()},
+               python, {"numpy", "matplotlib", "jinja2"});
 }
 
 }  // namespace vibrotrough::app

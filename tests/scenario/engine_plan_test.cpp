@@ -1,8 +1,8 @@
-#include "core/error.hpp"
 #include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "scenario/reader/swept_keys.hpp"
 #include "scenario/reader/written_campaign.hpp"
+#include "single_case.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,14 +18,8 @@ Campaign campaign(std::string const& engine, std::string const& text = example_c
     return parse_campaign(text + "[engine]\n" + engine, "test.toml", known_files);
 }
 
-std::string error_of(std::string const& engine, FileSource const& source = known_files,
-                     std::string const& text = example_campaign) {
-    try {
-        parse_campaign(text + "[engine]\n" + engine, "test.toml", source);
-    } catch (core::InputError const& error) {
-        return error.what();
-    }
-    return "no error";
+std::string engine_error(std::string const& engine) {
+    return error_of(example_campaign + "[engine]\n" + engine, known_files);
 }
 
 // A case without the section is written as it always was, so that its id stays.
@@ -64,13 +58,15 @@ TEST(EnginePlan, IsSwept) {
 }
 
 TEST(EnginePlan, MistakesAreNamed) {
-    EXPECT_THAT(error_of("contact = \"jkr\"\n"), HasSubstr("engine.contact: 'jkr' is not an allowed value"));
-    EXPECT_THAT(error_of("cohesion = \"-1 J/m3\"\n"), HasSubstr("out of range"));
-    EXPECT_THAT(error_of("cohesion = 5\n"), HasSubstr("no unit"));
+    EXPECT_THAT(engine_error("contact = \"jkr\"\n"),
+                HasSubstr("engine.contact: 'jkr' is not an allowed value"));
+    EXPECT_THAT(engine_error("cohesion = \"-1 J/m3\"\n"), HasSubstr("out of range"));
+    EXPECT_THAT(engine_error("cohesion = 5\n"), HasSubstr("no unit"));
     for (char const* name : {"../a.mustache", "contact", "x.csv"})
-        EXPECT_THAT(error_of("templates = [\"" + std::string(name) + "\"]\n"),
+        EXPECT_THAT(engine_error("templates = [\"" + std::string(name) + "\"]\n"),
                     HasSubstr("name of a template"));
-    EXPECT_THAT(error_of("templates = [\"contact.mustache\", \"contact.mustache\"]\n"), HasSubstr("twice"));
+    EXPECT_THAT(engine_error("templates = [\"contact.mustache\", \"contact.mustache\"]\n"),
+                HasSubstr("twice"));
 }
 
 }  // namespace

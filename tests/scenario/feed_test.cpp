@@ -1,6 +1,5 @@
 #include "scenario/model/feed.hpp"
 
-#include "core/error.hpp"
 #include "example_campaign.hpp"
 #include "scenario/reader/written_campaign.hpp"
 #include "single_case.hpp"
@@ -19,15 +18,6 @@ std::string fed(std::string const& feed = "mass_flow = \"0.1 t/h\"\n",
                 std::string const& trough = "side_wall_friction = 0\n") {
     std::string text = with("height = \"12 mm\"\n", "", with("36 mm", "200 mm"));
     return with("[grains]\n", trough + "[grains]\n", text) + "[feed]\n" + feed;
-}
-
-std::string error(std::string const& text) {
-    try {
-        single_case(text);
-    } catch (core::InputError const& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 TEST(Feed, MakesTheTroughOpen) {
@@ -62,9 +52,9 @@ TEST(Feed, MayCountGrains) {
         EXPECT_EQ(single_case(to_toml(s)).feed.mass_flow, s.feed.mass_flow);
         EXPECT_EQ(single_case(to_toml(s)).layer.grains, s.layer.grains);
     }
-    EXPECT_THAT(error(fed("mass_flow = \"-500 1/s\"\n")),
+    EXPECT_THAT(error_of(fed("mass_flow = \"-500 1/s\"\n")),
                 HasSubstr("-500 grains per second are out of range"));
-    EXPECT_THAT(error(fed("mass_flow = \"500 m/s\"\n")), HasSubstr("cannot be converted to kg/s"));
+    EXPECT_THAT(error_of(fed("mass_flow = \"500 m/s\"\n")), HasSubstr("cannot be converted to kg/s"));
 }
 
 // 500 grains per second of a mixture weigh 500 times the mean mass of its grains.
@@ -96,12 +86,12 @@ TEST(Feed, StagesMayFeedLess) {
 }
 
 TEST(Feed, WrongFeedsOfStagesAreNamed) {
-    EXPECT_THAT(error(staged("[[stages]]\ncycles = 3\nmass_flow = \"1 kg/s\"\n")),
+    EXPECT_THAT(error_of(staged("[[stages]]\ncycles = 3\nmass_flow = \"1 kg/s\"\n")),
                 HasSubstr("stages.1.mass_flow: is more than feed.mass_flow"));
-    EXPECT_THAT(error(staged("[[stages]]\ncycles = 3\nmass_flow = \"0 t/h\"\n")),
+    EXPECT_THAT(error_of(staged("[[stages]]\ncycles = 3\nmass_flow = \"0 t/h\"\n")),
                 HasSubstr("nothing is fed in any stage"));
-    EXPECT_THAT(error(with("max_cycles = 200\n", "", example_campaign) +
-                      "[[stages]]\ncycles = 3\nmass_flow = \"1 g/s\"\n"),
+    EXPECT_THAT(error_of(with("max_cycles = 200\n", "", example_campaign) +
+                         "[[stages]]\ncycles = 3\nmass_flow = \"1 g/s\"\n"),
                 HasSubstr("nothing is fed, because feed.mass_flow is not given"));
 }
 
@@ -110,22 +100,23 @@ TEST(Feed, ANarrowStreamFallsFaster) {
     EXPECT_NEAR(feed_speed(s) * 0.15 * 1400 * 0.02 * 0.015, *s.feed.mass_flow, 1e-15);
     EXPECT_EQ(single_case(to_toml(s)).feed.width, 0.015);
     for (char const* const width : {"13 mm", "19 mm"})
-        EXPECT_THAT(error(fed(std::string("mass_flow = \"0.05 t/h\"\nwidth = \"") + width + "\"\n")),
+        EXPECT_THAT(error_of(fed(std::string("mass_flow = \"0.05 t/h\"\nwidth = \"") + width + "\"\n")),
                     HasSubstr("feed.width: "));
 }
 
 TEST(Feed, WrongInputIsToldInOneLine) {
-    EXPECT_THAT(error(fed("length = \"25 mm\"\n")),
+    EXPECT_THAT(error_of(fed("length = \"25 mm\"\n")),
                 HasSubstr("exactly one of height, diameters, grains, block, feed.mass_flow is needed"));
-    EXPECT_THAT(error(example_campaign + "[feed]\nmass_flow = \"0.1 t/h\"\n"), HasSubstr("feed.mass_flow"));
-    EXPECT_THAT(error(fed("mass_flow = \"3 t/h\"\n")),
+    EXPECT_THAT(error_of(example_campaign + "[feed]\nmass_flow = \"0.1 t/h\"\n"),
+                HasSubstr("feed.mass_flow"));
+    EXPECT_THAT(error_of(fed("mass_flow = \"3 t/h\"\n")),
                 HasSubstr("does not fit through a zone of 20 mm by 18 mm"));
-    EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\nlength = \"8 mm\"\n")), HasSubstr("feed.length"));
-    EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\nlength = \"150 mm\"\n")),
+    EXPECT_THAT(error_of(fed("mass_flow = \"0.1 t/h\"\nlength = \"8 mm\"\n")), HasSubstr("feed.length"));
+    EXPECT_THAT(error_of(fed("mass_flow = \"0.1 t/h\"\nlength = \"150 mm\"\n")),
                 HasSubstr("half of the trough"));
-    EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\nheight = \"5 mm\"\n")),
+    EXPECT_THAT(error_of(fed("mass_flow = \"0.1 t/h\"\nheight = \"5 mm\"\n")),
                 HasSubstr("less than 3 of the largest diameters"));
-    EXPECT_THAT(error(fed() + "[[materials]]\nname = \"b\"\nmass_fraction = 1e-4\n"),
+    EXPECT_THAT(error_of(fed() + "[[materials]]\nname = \"b\"\nmass_fraction = 1e-4\n"),
                 HasSubstr("fewer than one grain of 'b'"));
 }
 

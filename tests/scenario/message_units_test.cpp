@@ -29,13 +29,6 @@ TEST(MessageUnits, AreThoseOfTheFile) {
                       HasSubstr("write at least \"0.3 cm\"")));
 }
 
-TEST(MessageUnits, TellWhereADepthInDiametersBelongs) {
-    EXPECT_THAT(error_of(with("height = \"12 mm\"", "height = \"8d\"")),
-                HasSubstr("'8d' is a depth in diameters of the grains"));
-    EXPECT_THAT(error_of(with("height = \"12 mm\"", "height = \"8 d\"")),
-                HasSubstr("layer.height: '8 d' is a depth in diameters of the grains"));
-}
-
 // 4 diameters of 3 mm are 12 mm.
 TEST(MessageUnits, ADepthInDiametersIsThatOfItsHeight) {
     auto const deep =

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <set>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace vibrotrough {

@@ -12,9 +12,9 @@ inline scenario::Scenario single_case(std::string const& text) {
     return scenario::parse_campaign(text, "test.toml").cases.front();
 }
 
-inline std::string error_of(std::string const& text) {
+inline std::string error_of(std::string const& text, scenario::FileSource const& source = {}) {
     try {
-        scenario::parse_campaign(text, "test.toml");
+        scenario::parse_campaign(text, "c.toml", source);
     } catch (core::InputError const& error) {
         return error.what();
     }

@@ -4,7 +4,6 @@
 #include "scenario/reader/campaign_file.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 

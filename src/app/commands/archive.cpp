@@ -1,22 +1,10 @@
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
-#include "app/exit_code.hpp"
+#include "app/commands/command.hpp"
 #include "archive/bundle.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
-#include "core/error.hpp"
-#include "core/shell.hpp"
-
-#include <filesystem>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ArchiveArguments {
     std::string folder, output;
@@ -80,21 +68,14 @@ void add_archive(CLI::App& program, int& exit_code) {
     CLI::App* const command =
         program.add_subcommand("archive", "Make one ZIP file of a campaign, for the supplement of a paper");
     add_campaign_folder(*command, options->folder);
-    command
-        ->add_option("--output", options->output,
-                     "The ZIP file; default <name of the campaign>.zip. An earlier bundle is replaced, any "
-                     "other file is not")
-        ->type_name("FILE");
-    command
-        ->add_option("--author", options->words.authors,
-                     "Name of an author, for the bundle's metadata; repeat the option for several")
-        ->type_name("NAME")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command
-        ->add_option("--license", options->words.license,
-                     "Address of the licence under which others may use the data")
-        ->type_name("URL");
+    add_text(*command, "--output", options->output,
+             "The ZIP file; default <name of the campaign>.zip. An earlier bundle is replaced, any "
+             "other file is not",
+             "FILE");
+    add_repeated(*command, "--author", options->words.authors,
+                 "Name of an author, for the bundle's metadata; repeat the option for several", "NAME");
+    add_text(*command, "--license", options->words.license,
+             "Address of the licence under which others may use the data", "URL");
     command->add_flag("--partial", options->words.partial,
                       "Archive the cases that have a result although others have none, or although the "
                       "campaign file in the folder was changed");

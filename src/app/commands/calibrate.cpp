@@ -1,28 +1,13 @@
-#include "app/commands.hpp"
 #include "app/commands/calibration_options.hpp"
-#include "app/commands/common_options.hpp"
-#include "app/commands/option_table.hpp"
-#include "app/exit_code.hpp"
+#include "app/commands/command.hpp"
 #include "app/extra_lines.hpp"
 #include "app/learning.hpp"
-#include "app/standard_streams.hpp"
 #include "campaign/state/campaign_folder.hpp"
-#include "core/error.hpp"
-#include "learn/calibration_report.hpp"
 #include "learn/surface_model.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
-#include <algorithm>
-#include <filesystem>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 namespace vibrotrough::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct CalibrateArguments {
     std::string campaign, measured;
@@ -125,21 +110,17 @@ void add_calibrate(CLI::App& program, int& exit_code) {
         ->add_option("campaign", options->campaign, "Folder of a campaign that was run, or its campaign file")
         ->required()
         ->type_name("DIR|CAMPAIGN.toml");
-    command
-        ->add_option("--output", options->running.output,
-                     "Folder of the results of CAMPAIGN.toml; default: runs/NAME")
-        ->type_name("DIR");
+    add_text(*command, "--output", options->running.output,
+             "Folder of the results of CAMPAIGN.toml; default: runs/NAME", "DIR");
     command->add_option("--measured", options->measured, "CSV file of measured speeds")
         ->required()
         ->type_name("FILE");
     options->shared.add_to(*command);
-    command
-        ->add_option(
-            "--budget", options->budget,
-            "Core time, for example \"1 core-hours\": simulate further cases where the posterior lies "
-            "until it is spent, or the surface is twice as precise there as the measurements; needs "
-            "CAMPAIGN.toml with a [domain]")
-        ->type_name("TIME");
+    add_text(*command, "--budget", options->budget,
+             "Core time, for example \"1 core-hours\": simulate further cases where the posterior lies "
+             "until it is spent, or the surface is twice as precise there as the measurements; needs "
+             "CAMPAIGN.toml with a [domain]",
+             "TIME");
     add_engine(*command, options->running.engine);
     options->counts.add_to(*command, {{"--jobs", ", with --budget"}});
     command->add_flag("--quiet", options->running.quiet, "Show no progress of the simulations");

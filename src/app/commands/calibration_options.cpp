@@ -1,19 +1,8 @@
 #include "app/commands/calibration_options.hpp"
 
-#include "app/commands/common_options.hpp"
-#include "app/decision_page.hpp"
+#include "app/commands/command.hpp"
 #include "app/python.hpp"
-#include "app/standard_streams.hpp"
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
 #include "core/temporary_folder.hpp"
-
-#include <algorithm>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 namespace vibrotrough::app {
 
@@ -36,31 +25,23 @@ void CalibrationOptions::add_to(CLI::App& command) {
         ->expected(1)
         ->type_name("NAME[,NAME...]")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command
-        .add_option(
-            "--prior", priors,
-            "Range of a free quantity, each value as likely, for example friction=0.2:0.6; repeat the "
-            "option for several")
-        ->type_name("NAME=LOW:HIGH")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_repeated(command, "--prior", priors,
+                 "Range of a free quantity, each value as likely, for example friction=0.2:0.6; repeat the "
+                 "option for several",
+                 "NAME=LOW:HIGH");
     quantities.add_to(command, {{"--uncertainty", "",
                                  "Standard uncertainty of speeds that have none in the file, as a fraction, "
                                  "for example 0.03"},
                                 {"--common-error"},
                                 {"--seed"}});
     command.add_flag("--without-discrepancy", exact, "Take the model to be exact");
-    command
-        .add_option("--plot", plot,
-                    "Draw the distributions of all pairs (corner plot) into this PNG or SVG file")
-        ->type_name("FILE");
-    command.add_option("--page", page, "Write a page of one screen about the result into this HTML file")
-        ->type_name("FILE");
-    command
-        .add_option(
-            "--posterior", posterior,
-            "Write the draws of the result into this JSON file, for 'vibrotrough design --posterior FILE'")
-        ->type_name("FILE");
+    add_text(command, "--plot", plot,
+             "Draw the distributions of all pairs (corner plot) into this PNG or SVG file", "FILE");
+    add_text(command, "--page", page, "Write a page of one screen about the result into this HTML file",
+             "FILE");
+    add_text(command, "--posterior", posterior,
+             "Write the draws of the result into this JSON file, for 'vibrotrough design --posterior FILE'",
+             "FILE");
     add_python(command, python);
     command.add_flag("--json", json, "Print JSON");
 }

@@ -4,7 +4,6 @@
 #include "learn/calibration.hpp"
 #include "learn/calibration_report.hpp"
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,25 +1,14 @@
 #include "learn/capacity.hpp"
 
-#include "app/commands.hpp"
-#include "app/commands/option_table.hpp"
-#include "app/exit_code.hpp"
-#include "app/json_list.hpp"
+#include "app/commands/command.hpp"
 #include "app/learning.hpp"
 #include "app/progress_log.hpp"
 #include "campaign/state/added_cases.hpp"
 #include "campaign/state/overview.hpp"
 #include "campaign/state/result_summary.hpp"
-#include "core/error.hpp"
-#include "core/shell.hpp"
 #include "scenario/reader/case_maker.hpp"
 
-#include <algorithm>
-#include <memory>
 #include <set>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vibrotrough::app {
 namespace {

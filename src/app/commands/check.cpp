@@ -1,25 +1,11 @@
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
-#include "app/exit_code.hpp"
-#include "app/json_list.hpp"
-#include "core/error.hpp"
+#include "app/commands/command.hpp"
 #include "deck/campaign_check.hpp"
 #include "deck/estimates.hpp"
 #include "scenario/reader/swept_keys.hpp"
 #include "store/quantity.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 namespace vibrotrough::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct CheckArguments {
     std::string campaign_file;
@@ -91,50 +77,42 @@ void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& f
 }
 
 /// "600 kg/m3", or "500 to 600 kg/m3" when the cases differ.
-std::string densities(scenario::Campaign const& campaign, double factor) {
-    double least = factor * mean_density(campaign.cases.front()), most = least;
-    for (scenario::Scenario const& one : campaign.cases) {
-        least = std::min(least, factor * mean_density(one));
-        most = std::max(most, factor * mean_density(one));
-    }
-    if (most - least <= 1e-9 * most) return fmt::format("{:.4g} kg/m3", least);
-    return fmt::format("{:.4g} to {:.4g} kg/m3", least, most);
+std::string range_of(std::vector<double> const& values, double factor, char const* unit, int digits = 4) {
+    auto const [least, most] = std::ranges::minmax(values);
+    std::string const low = fmt::format("{:.{}g}", factor * least, digits);
+    if (most - least <= 1e-9 * most) return fmt::format("{} {}", low, unit);
+    return fmt::format("{} to {:.{}g} {}", low, factor * most, digits, unit);
 }
 
 /// One of the two was given; the user sees whether the other is as expected.
 void print_densities(scenario::Campaign const& campaign) {
+    std::vector<double> densities;
+    for (scenario::Scenario const& one : campaign.cases) densities.push_back(mean_density(one));
     fmt::print("bulk density of the settled layer: {}, with grains of {} and a solid fraction of {}\n",
-               densities(campaign, scenario::settled_solid_fraction), densities(campaign, 1),
-               scenario::settled_solid_fraction);
+               range_of(densities, scenario::settled_solid_fraction, "kg/m3"),
+               range_of(densities, 1, "kg/m3"), scenario::settled_solid_fraction);
 }
 
 /// The feeds of open troughs, however they were given.
 void print_feeds(scenario::Campaign const& campaign) {
     std::vector<double> flows, rates;
+    auto const add = [&](scenario::Scenario const& one, double flow) {
+        flows.push_back(flow);
+        rates.push_back(flow / (mean_density(one) * mean_grain_volume(one)));
+    };
     for (auto const& one : campaign.cases) {
         if (!is_open(one)) continue;
-        std::vector<double> of_case;
-        for (scenario::Stage const& stage : stages(one)) of_case.push_back(stage.mass_flow);
-        if (of_case.empty()) of_case.push_back(*one.feed.mass_flow);
-        for (double const flow : of_case) {
-            flows.push_back(flow);
-            rates.push_back(flow / (mean_density(one) * mean_grain_volume(one)));
-        }
+        for (scenario::Stage const& stage : stages(one)) add(one, stage.mass_flow);
+        if (one.stages.empty()) add(one, *one.feed.mass_flow);
     }
-    if (flows.empty()) return;
-    auto const range = [](std::vector<double> const& values, double factor, char const* unit) {
-        auto const [least, most] = std::ranges::minmax(values);
-        return least == most ? fmt::format("{:.4g} {}", factor * least, unit)
-                             : fmt::format("{:.4g} to {:.4g} {}", factor * least, factor * most, unit);
-    };
-    fmt::print("feed: {} = {}\n", range(flows, store::tonnes_per_hour, "t/h"), range(rates, 1, "grains/s"));
+    if (!flows.empty())
+        fmt::print("feed: {} = {}\n", range_of(flows, store::tonnes_per_hour, "t/h"),
+                   range_of(rates, 1, "grains/s"));
 }
 
 /// The moduli of all cases, and who chose them.
 void print_moduli(deck::CampaignCheck const& found) {
-    double const least = found.least_modulus / 1e6, most = found.most_modulus / 1e6;
-    std::string const values =
-        least == most ? fmt::format("{:.3g} MPa", least) : fmt::format("{:.3g} to {:.3g} MPa", least, most);
+    std::string const values = range_of({found.least_modulus, found.most_modulus}, 1e-6, "MPa", 3);
     if (found.moduli_chosen == 0) {
         fmt::print("Young's modulus: {}, as given\n", values);
         return;
@@ -144,8 +122,7 @@ void print_moduli(deck::CampaignCheck const& found) {
                                   : fmt::format(" in {} of {} cases", found.moduli_chosen, found.cases);
     fmt::print(
         "Young's modulus: {}, chosen{}: the lowest with which soft grains change the efficiency by less than "
-        "half "
-        "of measure.half_width (validation/deep_layers)\n",
+        "half of measure.half_width (validation/deep_layers)\n",
         values, cases);
 }
 

@@ -1,12 +1,6 @@
-#include "app/commands.hpp"
-#include "app/exit_code.hpp"
+#include "app/commands/command.hpp"
 #include "atlas/atlas.hpp"
 #include "core/version.hpp"
-
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -10,6 +12,17 @@ namespace vibrotrough::app {
 
 /// Help of the flag --accept-failed-probes.
 inline constexpr char const* accept_failed_probes_help = "Run although the engine failed its probes";
+
+/// Adds an option that takes a text. @param type  how the help calls it, such as FILE
+void add_text(CLI::App& command, char const* name, std::string& value, std::string const& help,
+              char const* type);
+/// The same of one that may be left out.
+void add_text(CLI::App& command, char const* name, std::optional<std::string>& value, std::string const& help,
+              char const* type);
+
+/// Adds an option that may be given several times.
+void add_repeated(CLI::App& command, char const* name, std::vector<std::string>& values,
+                  std::string const& help, char const* type);
 
 /// Adds the required argument CAMPAIGN.toml.
 void add_campaign_file(CLI::App& command, std::string& file);

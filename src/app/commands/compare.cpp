@@ -1,8 +1,5 @@
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
-#include "app/exit_code.hpp"
-#include "app/left_aside.hpp"
-#include "app/standard_streams.hpp"
+#include "app/campaign_run.hpp"
+#include "app/commands/command.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "compare/compared_cases.hpp"
@@ -10,25 +7,14 @@
 #include "compare/select.hpp"
 #include "compare/stage_rows.hpp"
 #include "compare/table.hpp"
-#include "core/error.hpp"
-#include "core/shell.hpp"
 
-#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
-#include <memory>
-#include <utility>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace vibrotrough::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct CompareArguments {
     std::string folder;
@@ -140,19 +126,14 @@ void add_compare(CLI::App& program, int& exit_code) {
             "the theory says of its drive")
         ->excludes("--theory-curves")
         ->excludes("--budget");
-    command
-        ->add_option("--sort", options->sort,
-                     "Sort by a column of the JSON or by 'difference' (DEM minus theory), for example "
-                     "difference:desc")
-        ->type_name("COLUMN[:desc]");
-    command
-        ->add_option(
-            "--filter", options->filters,
-            "Keep only the cases in which a column of the JSON (or 'difference') is > >= < <= = or != a "
-            "value. Repeat the option for further conditions")
-        ->type_name("CONDITION")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_text(*command, "--sort", options->sort,
+             "Sort by a column of the JSON or by 'difference' (DEM minus theory), for example "
+             "difference:desc",
+             "COLUMN[:desc]");
+    add_repeated(*command, "--filter", options->filters,
+                 "Keep only the cases in which a column of the JSON (or 'difference') is > >= < <= = or != a "
+                 "value. Repeat the option for further conditions",
+                 "CONDITION");
     command
         ->add_option("--color", options->colour,
                      "Colour the table: auto means on a terminal where NO_COLOR is not set")

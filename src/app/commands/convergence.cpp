@@ -1,31 +1,14 @@
 #include "app/campaign_run.hpp"
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
+#include "app/commands/command.hpp"
 #include "app/engine_certificate.hpp"
-#include "app/exit_code.hpp"
 #include "app/extra_lines.hpp"
-#include "app/standard_streams.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/numerics_results.hpp"
 #include "campaign/state/overview.hpp"
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
-#include "core/shell.hpp"
 #include "scenario/reader/written_campaign.hpp"
-
-#include <algorithm>
-#include <filesystem>
-#include <memory>
-#include <optional>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace vibrotrough::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ConvergenceArguments {
     std::string campaign;
@@ -184,14 +167,10 @@ nearer to its limit, one at a time, and adds the differences up to an error budg
         ->required()
         ->type_name("CAMPAIGN.toml|DIR");
     options->study.add_to(*command);
-    command
-        ->add_option(
-            "--case", options->cases,
-            "Study this case, an id that 'vibrotrough plan' or 'compare' shows; repeat the option for "
-            "further cases. Default: the first, the middle and the last case of the campaign")
-        ->type_name("ID")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_repeated(*command, "--case", options->cases,
+                 "Study this case, an id that 'vibrotrough plan' or 'compare' shows; repeat the option for "
+                 "further cases. Default: the first, the middle and the last case of the campaign",
+                 "ID");
     command
         ->add_option("--half-width", options->half_width,
                      "Half-width of the interval that is wanted of each variation; default: "

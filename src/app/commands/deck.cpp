@@ -1,27 +1,14 @@
 #include "deck/deck.hpp"
 
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
-#include "app/exit_code.hpp"
+#include "app/commands/command.hpp"
 #include "app/extra_lines.hpp"
 #include "campaign/schedule/policy.hpp"
-#include "core/atomic_file.hpp"
-#include "core/shell.hpp"
 #include "deck/deck_folder.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
-#include <filesystem>
-#include <map>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 namespace vibrotrough::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct DeckArguments {
     std::string campaign_file;

@@ -1,26 +1,14 @@
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
+#include "app/commands/command.hpp"
 #include "app/commands/design_options.hpp"
-#include "app/decision_page.hpp"
 #include "app/design_verification.hpp"
-#include "app/exit_code.hpp"
 #include "app/learning.hpp"
-#include "app/standard_streams.hpp"
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
-#include "core/shell.hpp"
+#include "app/python.hpp"
 #include "learn/design_campaign.hpp"
 #include "learn/design_report.hpp"
 #include "learn/driven_design.hpp"
 
-#include <algorithm>
-#include <memory>
 #include <stdexcept>
-#include <utility>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 namespace vibrotrough::app {
@@ -226,14 +214,10 @@ void add_design(CLI::App& program, int& exit_code) {
         "design", "Find stroke, speed, angle and layer depth for a mass flow, and how sure that is");
     auto const options = std::make_shared<DesignArguments>();
     options->task.add_to(*command);
-    command
-        ->add_option("--campaign", options->campaign,
-                     "Write the campaign that checks the design with grains into this file")
-        ->type_name("FILE");
-    command
-        ->add_option("--page", options->page,
-                     "Write a page of one screen about the design into this HTML file")
-        ->type_name("FILE");
+    add_text(*command, "--campaign", options->campaign,
+             "Write the campaign that checks the design with grains into this file", "FILE");
+    add_text(*command, "--page", options->page,
+             "Write a page of one screen about the design into this HTML file", "FILE");
     add_python(*command, options->python);
     add_verification(*command, *options);
     command->add_flag("--json", options->json, "Print JSON");

@@ -1,22 +1,12 @@
 #include "app/commands/design_options.hpp"
 
 #include "app/commands/calibration_options.hpp"
+#include "app/commands/command.hpp"
 #include "app/learning.hpp"
 #include "campaign/state/campaign_folder.hpp"
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
 #include "learn/atlas_design_model.hpp"
 #include "learn/posterior_file.hpp"
 #include "learn/surface_design_model.hpp"
-#include "scenario/reader/written_campaign.hpp"
-
-#include <algorithm>
-#include <filesystem>
-#include <map>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {
@@ -109,17 +99,12 @@ void DesignOptions::add_to(CLI::App& command) {
         ->type_name("MODEL[,MODEL...]")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->check(CLI::IsMember({"point-mass", "rolling-layer", "atlas", "surface"}));
-    command
-        .add_option("--surface", surface,
-                    "Folder of a campaign, whose cases are the model 'surface' (see 'vibrotrough predict')")
-        ->type_name("DIR");
-    command
-        .add_option("--at", places,
-                    "Value of another key that this campaign varies, for example rolling_friction=0.05; "
-                    "repeat the option for several")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_text(command, "--surface", surface,
+             "Folder of a campaign, whose cases are the model 'surface' (see 'vibrotrough predict')", "DIR");
+    add_repeated(command, "--at", places,
+                 "Value of another key that this campaign varies, for example rolling_friction=0.05; "
+                 "repeat the option for several",
+                 "KEY=VALUE");
 }
 
 void DesignOptions::add_material(CLI::App& command) {

@@ -1,10 +1,7 @@
 #include "app/commands/exciter_options.hpp"
 
-#include "core/error.hpp"
+#include "app/commands/command.hpp"
 #include "core/text.hpp"
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {

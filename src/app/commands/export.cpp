@@ -1,15 +1,9 @@
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
-#include "app/exit_code.hpp"
-#include "app/left_aside.hpp"
-#include "app/standard_streams.hpp"
+#include "app/campaign_run.hpp"
+#include "app/commands/command.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "compare/compared_cases.hpp"
 #include "compare/point_mass_csv.hpp"
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
-#include "core/shell.hpp"
 #include "deck/atom_types.hpp"
 #include "deck/trough_mesh.hpp"
 #include "scenario/model/stage_motion.hpp"
@@ -18,20 +12,10 @@
 #include "view/table_vtk.hpp"
 #include "view/vtk.hpp"
 
-#include <algorithm>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <utility>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 #include <unistd.h>
 
 namespace vibrotrough::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ExportArguments {
     std::string folder;
@@ -190,8 +174,7 @@ void add_export(CLI::App& program, int& exit_code) {
         "export", std::string("Write the frames and the table of a campaign for ParaView") +
                       (view::has_vtk() ? "" : " (not in this program, which was built without VTK)"));
     add_campaign_folder(*command, options->folder);
-    command->add_option("--case", options->id, "Only this case; default: all cases with frames")
-        ->type_name("ID");
+    add_text(*command, "--case", options->id, "Only this case; default: all cases with frames", "ID");
     command->add_flag("--table", options->table,
                       "Write only the table of all cases (view/campaign.vtt), and no frames");
     command

@@ -1,29 +1,14 @@
 #include "app/campaign_run.hpp"
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
+#include "app/commands/command.hpp"
 #include "app/engine_certificate.hpp"
-#include "app/exit_code.hpp"
 #include "app/extra_lines.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/friction_results.hpp"
 #include "campaign/state/overview.hpp"
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
-#include "core/shell.hpp"
 #include "scenario/reader/shake_test.hpp"
-
-#include <algorithm>
-#include <filesystem>
-#include <memory>
-#include <optional>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct FrictionTestArguments {
     std::string campaign_file;

@@ -1,13 +1,7 @@
 #include "scenario/reader/keys.hpp"
 
-#include "app/commands.hpp"
-#include "app/exit_code.hpp"
+#include "app/commands/command.hpp"
 #include "scenario/reader/key_schema.hpp"
-
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 

@@ -1,19 +1,8 @@
-#include "app/commands.hpp"
-#include "app/commands/option_table.hpp"
-#include "app/exit_code.hpp"
+#include "app/commands/command.hpp"
 #include "app/learning.hpp"
 #include "app/progress_log.hpp"
-#include "app/standard_streams.hpp"
-#include "core/error.hpp"
-#include "core/shell.hpp"
 #include "prepare/numerical_errors.hpp"
 #include "scenario/reader/swept_keys.hpp"
-
-#include <cmath>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {

@@ -1,23 +1,13 @@
-#include "app/commands.hpp"
-#include "app/exit_code.hpp"
-#include "app/json_list.hpp"
+#include "app/commands/command.hpp"
 #include "core/text.hpp"
 #include "evaluate/by_hand.hpp"
 #include "measure/estimate.hpp"
 
-#include <cmath>
-#include <memory>
 #include <numeric>
 #include <span>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 namespace vibrotrough::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct MeasureArguments {
     std::string folder;
@@ -159,11 +149,9 @@ void add_measure(CLI::App& program, int& exit_code) {
                      "Folder in which the engine ran (packing-1), or that of a case with several of them")
         ->required()
         ->type_name("FOLDER");
-    command
-        ->add_option(
-            "--scenario", options->scenario,
-            "The scenario.toml that says what was simulated; default: the one in the folder or above it")
-        ->type_name("FILE");
+    add_text(*command, "--scenario", options->scenario,
+             "The scenario.toml that says what was simulated; default: the one in the folder or above it",
+             "FILE");
     command->add_flag("--json", options->json, "Print JSON for scripts");
     command->footer(
         R"(Prints the velocity efficiency with its interval as 'run' and 'compare' would find it, and the outcome.

@@ -1,20 +1,9 @@
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
-#include "app/exit_code.hpp"
+#include "app/commands/command.hpp"
 #include "app/observing.hpp"
-#include "app/standard_streams.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/notes.hpp"
 #include "campaign/state/observables.hpp"
 #include "campaign/state/overview.hpp"
-#include "core/error.hpp"
-#include "core/shell.hpp"
-
-#include <algorithm>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {
@@ -115,16 +104,10 @@ void add_observe(CLI::App& program, int& exit_code) {
     command->add_option("DIR", options->folder, "Folder of the campaign's results, as given to run --output");
     command->add_option("FILE", options->file,
                         "Your functions in Python; without it those that --examples prints");
-    command
-        ->add_option("--allow-python", options->allowed,
-                     "Run this file, which must be FILE: it can do anything that you can, so read it first")
-        ->type_name("FILE");
-    command
-        ->add_option("--only", options->only,
-                     "Measure only the function of this name; repeat the option for several")
-        ->type_name("NAME")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_text(*command, "--allow-python", options->allowed,
+             "Run this file, which must be FILE: it can do anything that you can, so read it first", "FILE");
+    add_repeated(*command, "--only", options->only,
+                 "Measure only the function of this name; repeat the option for several", "NAME");
     command->add_flag("--examples", options->examples,
                       "Print the file of the functions that ship with the program, and exit");
     command->add_flag("--json", options->json, "Print what was measured as JSON for scripts");

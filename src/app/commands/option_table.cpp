@@ -1,13 +1,9 @@
 #include "app/commands/option_table.hpp"
 
+#include "app/commands/command.hpp"
 #include "scenario/reader/keys.hpp"
 
-#include <algorithm>
 #include <stdexcept>
-#include <vector>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {

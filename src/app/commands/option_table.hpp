@@ -61,7 +61,7 @@ class QuantityOptions {
   public:
     /// An option, and what its help says besides the meaning of its row, or instead of it.
     struct Wanted {
-        char const* name;
+        char const* name;          ///< of a row
         char const* more = "";     ///< behind the meaning
         char const* instead = "";  ///< of the meaning
     };

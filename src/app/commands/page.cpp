@@ -1,34 +1,19 @@
-#include "app/commands.hpp"
-#include "app/exit_code.hpp"
-#include "app/left_aside.hpp"
+#include "app/campaign_run.hpp"
+#include "app/commands/command.hpp"
 #include "app/script_folder.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "compare/compared_cases.hpp"
 #include "compare/exports.hpp"
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
 #include "core/note.hpp"
 #include "core/own_program.hpp"
 #include "learn/design_file.hpp"
 #include "prepare/prepared_case.hpp"
 
 #include <array>
-#include <filesystem>
-#include <memory>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vibrotrough::app {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct PageArguments {
     std::vector<std::string> results;

@@ -1,9 +1,5 @@
 #include "app/command_pages.hpp"
-#include "app/commands.hpp"
-#include "app/exit_code.hpp"
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
+#include "app/commands/command.hpp"
 
 namespace vibrotrough::app {
 

@@ -1,11 +1,8 @@
 #include "campaign/state/plan.hpp"
 
 #include "app/campaign_run.hpp"
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
-#include "app/exit_code.hpp"
+#include "app/commands/command.hpp"
 #include "app/extra_lines.hpp"
-#include "app/json_list.hpp"
 #include "app/progress_printer.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/schedule/forecast.hpp"
@@ -13,25 +10,12 @@
 #include "campaign/state/overview.hpp"
 #include "compare/compared_cases.hpp"
 #include "compare/exports.hpp"
-#include "core/error.hpp"
 #include "core/parallel.hpp"
 
-#include <algorithm>
 #include <array>
-#include <filesystem>
-#include <memory>
-#include <numbers>
-#include <optional>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vibrotrough::app {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct PlanArguments {
     std::string campaign_file;

@@ -1,7 +1,5 @@
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
-#include "app/exit_code.hpp"
-#include "app/left_aside.hpp"
+#include "app/campaign_run.hpp"
+#include "app/commands/command.hpp"
 #include "app/python.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -9,22 +7,11 @@
 #include "compare/compared_cases.hpp"
 #include "compare/report_data.hpp"
 #include "compare/select.hpp"
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
 #include "core/quantity.hpp"
 #include "scenario/reader/keys.hpp"
 
-#include <algorithm>
-#include <filesystem>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 namespace vibrotrough::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct PlotArguments {
     std::string folder, output, python;
@@ -189,15 +176,11 @@ int run_plot(PlotArguments const& options) {
 std::shared_ptr<PlotArguments> add_common(CLI::App& command) {
     auto const options = std::make_shared<PlotArguments>();
     add_campaign_folder(command, options->folder);
-    command.add_option("--output", options->output, "Folder to write to; default DIR/report")
-        ->type_name("DIR");
-    command
-        .add_option("--case", options->cases,
-                    "Draw the figures of single cases only for this case; repeat the option for several; "
-                    "default: all")
-        ->type_name("ID")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_text(command, "--output", options->output, "Folder to write to; default DIR/report", "DIR");
+    add_repeated(command, "--case", options->cases,
+                 "Draw the figures of single cases only for this case; repeat the option for several; "
+                 "default: all",
+                 "ID");
     add_python(command, options->python);
     return options;
 }
@@ -219,23 +202,17 @@ void add_plot(CLI::App& program, int& exit_code) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     auto const add_column = [&](char const* name, std::string& column, char const* meaning) {
-        command->add_option(name, column, meaning)->type_name("COLUMN");
+        add_text(*command, name, column, meaning, "COLUMN");
     };
     add_column("--x", options->x,
                "Draw one figure only: any column of 'compare' over this one, such as layer.height");
     add_column("--y", options->y,
                "The column that is drawn over --x, such as efficiency, speed or mass_flow");
     add_column("--by", options->by, "The column that tells series apart; default: the other swept keys");
-    command
-        ->add_option("--unit", options->unit,
-                     "Unit of --y, such as m/min or kg/s; default: that of the table")
-        ->type_name("UNIT");
-    command
-        ->add_option("--with", options->others,
-                     "Draw the cases of this campaign in the same figure; repeat the option for several")
-        ->type_name("DIR")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_text(*command, "--unit", options->unit,
+             "Unit of --y, such as m/min or kg/s; default: that of the table", "UNIT");
+    add_repeated(*command, "--with", options->others,
+                 "Draw the cases of this campaign in the same figure; repeat the option for several", "DIR");
     command
         ->add_option("--format", options->formats,
                      "Write these kinds of files: svg, png, pdf, with commas between them; default svg,png")
@@ -244,16 +221,14 @@ void add_plot(CLI::App& program, int& exit_code) {
         ->type_name("KIND,...")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command
-        ->add_option("--width", options->width,
-                     "Width of every figure in print: one-column (84 mm), two-columns (174 mm), or a width "
-                     "such as \"90 mm\"; default: as on a screen")
-        ->type_name("WIDTH");
-    command
-        ->add_option("--style", options->style,
-                     "A style sheet of matplotlib, for fonts, sizes of letters, axes, ticks and resolution. "
-                     "Colours and marks that tell series apart stay")
-        ->type_name("FILE");
+    add_text(*command, "--width", options->width,
+             "Width of every figure in print: one-column (84 mm), two-columns (174 mm), or a width "
+             "such as \"90 mm\"; default: as on a screen",
+             "WIDTH");
+    add_text(*command, "--style", options->style,
+             "A style sheet of matplotlib, for fonts, sizes of letters, axes, ticks and resolution. "
+             "Colours and marks that tell series apart stay",
+             "FILE");
     command->footer(R"(Kinds of figures:
   efficiency  velocity efficiency over throw number or swept key: DEM with error bars and models
   speed       conveying speed over the same, beside the theory, the rolling-layer law and the atlas

@@ -1,32 +1,15 @@
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/commands/predict_layers.hpp"
-#include "app/exit_code.hpp"
 #include "app/learning.hpp"
 #include "campaign/state/campaign_folder.hpp"
-#include "core/error.hpp"
 #include "core/outcome.hpp"
 #include "learn/campaign_surface.hpp"
 #include "scenario/reader/swept_keys.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <map>
-#include <memory>
-#include <string>
 #include <tuple>
-#include <utility>
-#include <vector>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 namespace vibrotrough::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct PredictArguments {
     std::string folder;
@@ -198,14 +181,14 @@ Json as_json(Prediction const& p) {
             {"covered", p.quality.covered}};
 }
 
-void print_csv(std::vector<Prediction> const& predictions) {
-    for (atlas::SurfaceInput const& input : predictions.front().inputs) fmt::print("{},", input.key);
-    fmt::print("efficiency,half_width,numerical_error,whole_half_width,efficiency_theory,inside\n");
-    for (Prediction const& p : predictions) {
-        for (double const value : p.place) fmt::print("{},", value);
-        fmt::print("{},{},{},{},{},{}\n", p.value.efficiency, p.value.half_width, p.numerics,
-                   p.whole_half_width(), p.theory, p.is_inside ? 1 : 0);
-    }
+/// The same as a line of a table.
+Json as_row(Prediction const& p) {
+    Json const all = as_json(p);
+    Json row = all["at"];
+    for (char const* const name :
+         {"efficiency", "half_width", "numerical_error", "whole_half_width", "efficiency_theory", "inside"})
+        row[name] = all[name];
+    return row;
 }
 
 void print_text(Prediction const& p) {
@@ -240,7 +223,9 @@ void run_predict(PredictArguments const& options) {
         for (Prediction const& p : predictions) json.push_back(as_json(p));
         fmt::print("{}\n", (json.size() == 1 ? json.front() : json).dump(2));
     } else if (options.csv) {
-        print_csv(predictions);
+        std::vector<Json> rows;
+        for (Prediction const& p : predictions) rows.push_back(as_row(p));
+        print_csv(rows);
     } else {
         for (Prediction const& p : predictions) print_text(p);
     }
@@ -257,14 +242,10 @@ void add_predict(CLI::App& program, int& exit_code) {
                      "Campaign file or folder of a campaign: its cases, from the atlas of simulated layers; "
                      "with --at the folder of a campaign with results")
         ->required();
-    command
-        ->add_option(
-            "--at", options->places,
-            "A place between the cases of the campaign, from their results: values of all keys that it "
-            "varies; repeat the option for several places")
-        ->type_name("KEY=VALUE[,KEY=VALUE...]")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_repeated(*command, "--at", options->places,
+                 "A place between the cases of the campaign, from their results: values of all keys that it "
+                 "varies; repeat the option for several places",
+                 "KEY=VALUE[,KEY=VALUE...]");
     auto* const json =
         command->add_flag("--json", options->json, "Print JSON: a list; an object for a single place");
     command->add_flag("--csv", options->csv, "Print CSV")->excludes(json);

@@ -1,29 +1,17 @@
 #include "app/commands/predict_layers.hpp"
 
-#include "app/json_list.hpp"
+#include "app/commands/command.hpp"
 #include "atlas/atlas.hpp"
 #include "atlas/layer_load.hpp"
 #include "atlas/layer_mode.hpp"
 #include "atlas/tables.hpp"
-#include "core/csv.hpp"
 #include "core/text.hpp"
 #include "prepare/prepared_case.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "scenario/reader/swept_keys.hpp"
 
-#include <algorithm>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
-
 namespace vibrotrough::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// What the atlas says of one case.
 struct PredictedLayer {
@@ -144,25 +132,6 @@ Json as_json(PredictedLayer const& layer) {
     return json;
 }
 
-std::string cell(std::optional<double> const& value) {
-    return value ? fmt::format("{}", *value) : "";
-}
-
-void print_csv(std::vector<PredictedLayer> const& layers) {
-    fmt::print("case,efficiency,half_width,speed_m_per_s,efficiency_theory,inside,outside");
-    for (auto const& [name, value] : load_of(layers.front())) fmt::print(",{}", name);
-    fmt::print(",layer_mode,layer_mode_share,several_cycles_share\n");
-    for (PredictedLayer const& layer : layers) {
-        fmt::print("{},{},{},{},{},{},{}", core::csv_cell(layer.label), cell(layer.answer.efficiency),
-                   cell(layer.answer.half_width), cell(layer.speed()), cell(layer.theory),
-                   layer.answer.is_inside() ? 1 : 0,
-                   core::csv_cell(layer.outside(&atlas::Outside::name, " ")));
-        for (auto const& [name, value] : load_of(layer)) fmt::print(",{}", cell(value));
-        fmt::print(",{},{},{}\n", layer.mode ? layer.mode->mode : "", cell(layer.mode_share()),
-                   cell(layer.later_share()));
-    }
-}
-
 std::string with_half_width(std::optional<double> value, std::optional<double> half_width) {
     if (!value) return "-";
     return fmt::format("{} +- {}", core::three_digits(value), core::three_digits(half_width));
@@ -203,12 +172,12 @@ void print_text(std::vector<PredictedLayer> const& layers) {
 
 void predict_layers(std::filesystem::path const& campaign_file, PredictionFormat format) {
     auto const layers = predict_all(scenario::read_campaign(campaign_file));
+    std::vector<Json> rows;
+    for (PredictedLayer const& layer : layers) rows.push_back(as_json(layer));
     if (format == PredictionFormat::json) {
-        Json list = Json::array();
-        for (PredictedLayer const& layer : layers) list.push_back(as_json(layer));
-        fmt::print("{}\n", list.dump(2));
+        fmt::print("{}\n", Json(rows).dump(2));
     } else if (format == PredictionFormat::csv) {
-        print_csv(layers);
+        print_csv(rows);
     } else {
         print_text(layers);
     }

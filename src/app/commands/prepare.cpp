@@ -1,26 +1,12 @@
 #include "app/campaign_run.hpp"
-#include "app/commands.hpp"
-#include "app/exit_code.hpp"
-#include "app/progress_log.hpp"
+#include "app/commands/command.hpp"
 #include "campaign/execute/campaign_driver.hpp"
 #include "campaign/execute/task_list.hpp"
 #include "campaign/schedule/policy.hpp"
 #include "campaign/state/overview.hpp"
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
-#include "core/shell.hpp"
-
-#include <filesystem>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace vibrotrough::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct PrepareArguments {
     RunOptions shared;

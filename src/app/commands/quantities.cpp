@@ -1,20 +1,11 @@
-#include "app/commands.hpp"
-#include "app/exit_code.hpp"
+#include "app/commands/command.hpp"
 #include "compare/exports.hpp"
 #include "compare/stage_rows.hpp"
 #include "core/outcome.hpp"
 #include "store/reference.hpp"
 
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 namespace vibrotrough::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string reference() {
     return "# Everything in the results\n\n"

@@ -1,24 +1,13 @@
 #include "app/campaign_run.hpp"
-#include "app/commands.hpp"
-#include "app/exit_code.hpp"
+#include "app/commands/command.hpp"
 #include "app/extra_lines.hpp"
 #include "app/progress_log.hpp"
 #include "campaign/execute/campaign_driver.hpp"
 #include "campaign/schedule/policy.hpp"
 #include "campaign/state/overview.hpp"
-#include "core/shell.hpp"
-
-#include <filesystem>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace vibrotrough::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct RunArguments {
     RunOptions shared;

@@ -1,8 +1,5 @@
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
-#include "app/exit_code.hpp"
-#include "app/json_list.hpp"
-#include "app/left_aside.hpp"
+#include "app/campaign_run.hpp"
+#include "app/commands/command.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/schedule/forecast.hpp"
 #include "campaign/schedule/policy.hpp"
@@ -13,20 +10,8 @@
 #include "compare/exports.hpp"
 #include "core/text.hpp"
 
-#include <algorithm>
-#include <map>
-#include <memory>
-#include <optional>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
-
 namespace vibrotrough::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct StatusArguments {
     std::string folder;

@@ -1,8 +1,5 @@
-#include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
-#include "app/exit_code.hpp"
+#include "app/commands/command.hpp"
 #include "app/extra_lines.hpp"
-#include "app/standard_streams.hpp"
 #include "campaign/execute/packing_worker.hpp"
 #include "campaign/execute/task_list.hpp"
 #include "campaign/schedule/until_precise.hpp"
@@ -10,10 +7,6 @@
 #include "learn/learner.hpp"
 
 #include <cstdio>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {

@@ -48,20 +48,12 @@ std::string lower(std::string word) {
     return word;
 }
 
-/// The rest of a line that begins or ends a solid.
-std::string rest_of_line(std::istringstream& text) {
-    std::string line;
-    std::getline(text, line);
-    if (lower(line).find("facet ") != std::string::npos)
-        throw std::invalid_argument("a facet stands on the line of a solid; write it on a line of its own");
-    return line;
-}
-
 /// The number of the part that begins with the rest of this line, its name. Characters that no name in a
 /// campaign file may have become '_'.
 std::size_t begin_part(std::istringstream& text, std::vector<std::string>& parts) {
     constexpr std::size_t most_parts = 100, longest = 100;
-    std::string name = rest_of_line(text);
+    std::string name;
+    std::getline(text, name);
     name.erase(0, name.find_first_not_of(" \t\r"));
     name.erase(std::min({name.size(), longest, name.find_last_not_of(" \t\r") + 1}));
     name = part_name(std::move(name));
@@ -100,7 +92,7 @@ Solids read_text(std::string_view content) {
     Triangle triangle{};
     while (text >> word && triangles.size() <= most_triangles) {
         word = lower(word);
-        if (word == "endsolid" || word == "end") rest_of_line(text);
+        if (word == "endsolid" || word == "end") std::getline(text, word);
         if (word == "solid") part = begin_part(text, solids.parts);
         if (word != "vertex") continue;
         Point& p = triangle[corner];

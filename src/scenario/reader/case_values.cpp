@@ -29,13 +29,11 @@ void complete_packings(MeasurementPlan& plan, GivenKeys const& given) {
 /// A block represents the point mass of the theory. It has one size and no shape, and because nothing about
 /// it is random, one packing is enough.
 void complete_block(Scenario& scenario, GivenKeys const& given) {
-    double const needed = 8 * scenario.grains.diameter;
-    if (scenario.layer.block == Block::plate &&
-        std::min(scenario.layer.length, scenario.layer.width) < needed) {
-        given.fail("layer.block",
-                   fmt::format("a plate is 5 diameters long and needs a box of {}",
-                               given.text("layer.length", needed)),
-                   "make length and width at least 8 diameters");
+    if (scenario.layer.block == Block::plate) {
+        double const needed = 8 * scenario.grains.diameter;
+        constexpr char const* what = "8 diameters, which a plate needs";
+        given.require("layer.length", scenario.layer.length, needed, what);
+        given.require("layer.width", scenario.layer.width, needed, what);
     }
     scenario.grains.rotation = scenario.layer.block == Block::point ? Rotation::blocked : Rotation::free;
     scenario.grains.rolling_friction = 0;

@@ -52,8 +52,8 @@ using CaseValues = std::map<std::string_view, Value, ByLength>;
 /// it.
 struct FilesRead {
     std::mutex one_case;  ///< is locked while a case looks for a file or reads it
-    std::map<std::string, std::shared_ptr<ShapeFile const>> shapes;                      ///< of clumps
-    std::map<std::string, std::shared_ptr<Waveform const>> waveforms;                    ///< of the trough
+    std::map<std::vector<std::string>, std::shared_ptr<ShapeFile const>> shapes;         ///< of clumps
+    std::map<std::vector<std::string>, std::shared_ptr<Waveform const>> waveforms;       ///< of the trough
     std::map<std::vector<std::string>, std::shared_ptr<TroughMesh const>> meshes;        ///< of the trough
     std::map<std::vector<std::string>, std::shared_ptr<DeckTemplates const>> templates;  ///< of decks
 };

@@ -2,7 +2,6 @@
 
 #include "scenario/reader/case_values.hpp"
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>

@@ -58,4 +58,16 @@ void GivenKeys::fail(std::string_view key, std::string_view wrong, std::string_v
     throw_at({file_, found == values_.end() ? Position{} : found->second.where}, key, wrong, instead);
 }
 
+void GivenKeys::require(std::string_view key, double value, double least, std::string_view what) const {
+    if (value >= least) return;
+    fail(key, fmt::format("{} is less than {}", text(key, value), what),
+         fmt::format("write at least \"{}\"", text(key, least)));
+}
+
+void GivenKeys::require_at_most(std::string_view key, double count, double most, std::string_view things,
+                                std::string_view instead) const {
+    if (count > most)
+        fail(key, fmt::format("there would be {:.3g} {}, more than {:.0f}", count, things, most), instead);
+}
+
 }  // namespace vibrotrough::scenario

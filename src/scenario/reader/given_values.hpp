@@ -64,6 +64,14 @@ class GivenKeys {
     std::string text(std::string_view key, double value) const;
     /// @throws core::InputError of one line: position of the key, key, what is wrong, what to write instead
     [[noreturn]] void fail(std::string_view key, std::string_view wrong, std::string_view instead) const;
+    /// Refuses a length of a key below the least that it may have.
+    /// @param what  the least is: "4 diameters of the largest grains"
+    void require(std::string_view key, double value, double least, std::string_view what) const;
+    /// The same for a count, such as that of grains, which follows from a key.
+    /// @param things   what is counted
+    /// @param instead  what to write
+    void require_at_most(std::string_view key, double count, double most, std::string_view things,
+                         std::string_view instead) const;
 
   private:
     CaseValues const& values_;

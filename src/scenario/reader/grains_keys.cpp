@@ -12,8 +12,10 @@ using enum KeyNeed;
 void set_shape(Grains& grains, GivenValue const& v) {
     grains.shape = v.word();
     if (grains.shape == "sphere" || grains.shape == "cube" || grains.shape == "rod") return;
-    grains.shape_file = read_once(v.files_read().shapes, read_shape, v,
-                                  "write the header x,y,z,radius and one sphere per line");
+    grains.shape_file = read_once(
+        v.files_read().shapes, v, {v.word()},
+        [](std::vector<NamedFile> files) { return read_shape(std::move(files.front())); },
+        "write the header x,y,z,radius and one sphere per line");
 }
 
 /// The mass of grains per second is known when all keys are set.

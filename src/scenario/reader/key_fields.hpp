@@ -8,6 +8,9 @@
 #include <type_traits>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 // How a row of the table of keys says where its value is: field<&Scenario::trough, &Trough::friction>. The
 // type of the member decides how it is read and written. Internal to this room.
 
@@ -91,22 +94,37 @@ inline bool never(Scenario const&) {
     return false;
 }
 
-/// A file that a key names, read once for all cases.
-/// @param known   the files that were read for other cases
-/// @param read    turns its text into what it means; throws std::invalid_argument when it is wrong
-/// @param advice  what to write instead of a wrong text
+/// What is made of the files that a key names, once for all cases. Several cases may be made at once.
 template <typename File>
-std::shared_ptr<File const> read_once(std::map<std::string, std::shared_ptr<File const>>& known,
-                                      std::shared_ptr<File const> (*read)(NamedFile), GivenValue const& value,
+using KnownFiles = std::map<std::vector<std::string>, std::shared_ptr<File const>>;
+
+/// @param known   what was made for other cases, by the names of the files
+/// @param read    makes it; throws std::invalid_argument when a file is wrong
+/// @param advice  what to write instead of a wrong file
+template <typename File, typename Read>
+std::shared_ptr<File const> read_once(KnownFiles<File>& known, GivenValue const& value,
+                                      std::vector<std::string> const& names, Read const& read,
                                       std::string_view advice) {
     std::lock_guard const one_case(value.files_read().one_case);
-    std::shared_ptr<File const>& file = known[value.word()];
+    std::shared_ptr<File const>& file = known[names];
     try {
-        if (!file) file = read(value.file(value.word()));
+        if (!file) {
+            std::vector<NamedFile> files;
+            for (std::string const& name : names) files.push_back(value.file(name));
+            file = read(std::move(files));
+        }
     } catch (std::invalid_argument const& error) {
-        value.fail(value.word() + ": " + error.what(), advice);
+        value.fail(fmt::format("{}: {}", fmt::join(names, ", "), error.what()), advice);
     }
     return file;
+}
+
+/// The waveform that a key of the trough or of a stage names.
+inline std::shared_ptr<Waveform const> waveform_of(GivenValue const& value) {
+    return read_once(
+        value.files_read().waveforms, value, {value.word()},
+        [](std::vector<NamedFile> files) { return read_waveform(std::move(files.front())); },
+        waveform_advice);
 }
 
 /// The rows of the table by the sections that they describe.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <deque>
 #include <map>
-#include <numeric>
 #include <string>
 #include <vector>
 

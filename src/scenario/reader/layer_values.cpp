@@ -8,28 +8,8 @@
 namespace vibrotrough::scenario {
 namespace {
 
-constexpr std::size_t most_spheres = 100'000'000;  // of a layer
+constexpr double most_spheres = 1e8;  // of a layer
 constexpr double most_grains_on_floor = 1e6;
-
-void check_box(std::string_view key, double side, double largest, GivenKeys const& given) {
-    if (side >= 4 * largest) return;
-    given.fail(
-        key,
-        fmt::format("{} is less than 4 diameters of the largest grains ({} each), so that grains would "
-                    "touch their own periodic images",
-                    given.text(key, side), given.text("grains.diameter", largest)),
-        fmt::format("write at least \"{}\"", given.text(key, 4 * largest)));
-}
-
-/// The floor's mesh has a triangle for every few grains on it.
-void check_floor(Layer const& layer, double diameter, GivenKeys const& given) {
-    double const grains = layer.length * layer.width / (diameter * diameter);
-    if (grains <= most_grains_on_floor) return;
-    given.fail("layer.length",
-               fmt::format("{:.3g} grains of {} would lie side by side on the floor, more than {:.0f}",
-                           grains, given.text("grains.diameter", diameter), most_grains_on_floor),
-               "make the box smaller or the grains larger; is the unit of the diameter right?");
-}
 
 [[noreturn]] void fail_mesh(Scenario const& scenario, GivenKeys const& given, std::string_view wrong,
                             std::string_view instead) {
@@ -91,12 +71,10 @@ void check_mesh(Scenario const& scenario, GivenKeys const& given) {
              "close it: the surface must cover its length and width; a flat floor with square holes is a "
              "[screen]");
     }
-    double const size = smallest_diameter(scenario), grains = mesh.area * unit * unit / (size * size);
-    if (grains > most_grains_on_floor) {
-        fail(fmt::format("{:.3g} grains of {} would cover its surface, more than {:.0f}", grains,
-                         given.text("grains.diameter", size), most_grains_on_floor),
-             "take a smaller piece of the trough or larger grains; is mesh_unit right?");
-    }
+    double const size = smallest_diameter(scenario);
+    given.require_at_most("trough.mesh", mesh.area * unit * unit / (size * size), most_grains_on_floor,
+                          "grains on its surface",
+                          "take a smaller piece of the trough or larger grains; is mesh_unit right?");
     is_open(scenario) ? check_open_mesh(scenario, given) : check_periodic_mesh(scenario, given);
 }
 
@@ -112,30 +90,17 @@ double space_below(double height, Scenario const& scenario) {
 }
 
 int grains_for(double height, Scenario const& scenario, GivenKeys const& given) {
-    double const diameter = mean_diameter(scenario);
-    if (height < diameter) {
-        given.fail(height_key(given),
-                   fmt::format("{} is less than one grain diameter", given.text("layer.height", height)),
-                   given.has("layer.diameters")
-                       ? "write at least 1"
-                       : fmt::format("write at least \"{}\"", given.text("layer.height", diameter)));
-    }
-    double const volume =
-        scenario.trough.mesh ? settled_solid_fraction * space_below(height, scenario)
-                             : settled_solid_fraction * scenario.layer.length * scenario.layer.width * height;
-    double const count = volume / mean_grain_volume(scenario);
-    if (count < 1) {
+    given.require(height_key(given), height, mean_diameter(scenario), "one grain diameter");
+    double const space = scenario.trough.mesh ? space_below(height, scenario)
+                                              : scenario.layer.length * scenario.layer.width * height;
+    double const count = settled_solid_fraction * space / mean_grain_volume(scenario);
+    if (count < 1)
         given.fail(
             height_key(given),
             fmt::format("{} leaves no room for a grain above the trough", given.text("layer.height", height)),
             "raise it");
-    }
-    Key const& key = *find_key("layer.grains");
-    if (count > key.most) {
-        given.fail(height_key(given),
-                   fmt::format("the layer would need {:.3g} grains, more than {:.0f}", count, key.most),
-                   "make the layer smaller or the grains larger");
-    }
+    given.require_at_most(height_key(given), count, find_key("layer.grains")->most, "grains",
+                          "make the layer smaller or the grains larger");
     return std::max(1, static_cast<int>(std::lround(count)));
 }
 
@@ -149,12 +114,8 @@ int grains_of_feed(Scenario const& s, GivenKeys const& given) {
         mass = std::max(mass, stage.mass_flow * s.layer.length / expected_speed(driven));
     }
     double const count = mass / (mean_density(s) * mean_grain_volume(s));
-    Key const& key = *find_key("layer.grains");
-    if (count > key.most)
-        given.fail(
-            "feed.mass_flow",
-            fmt::format("about {:.3g} grains would be in the trough, more than {:.0f}", count, key.most),
-            "shorten the trough, feed less, or take larger grains");
+    given.require_at_most("feed.mass_flow", count, find_key("layer.grains")->most, "grains in the trough",
+                          "shorten the trough, feed less, or take larger grains");
     return std::max(1, static_cast<int>(std::lround(count)));
 }
 
@@ -214,18 +175,9 @@ void complete_feed(Scenario& s, GivenKeys const& given) {
                         given.text("feed.width", *s.feed.width), given.text("feed.width", 4 * largest),
                         given.text("feed.width", s.layer.width)),
             "change it, or leave it out for a stream as wide as the trough");
-    double const floor = floor_under_feed(s), least_height = floor + 3 * largest;
-    if (feed_height(s) < least_height)
-        given.fail(
-            "feed.height",
-            fmt::format("{} is less than 3 of the largest diameters{}: grains would find no room above "
-                        "those that lie on the floor",
-                        given.text("feed.height", feed_height(s)),
-                        floor > 0 ? fmt::format(" above the highest point of the mesh under the feed, "
-                                                "which is {} above its lowest one",
-                                                given.text("feed.height", floor))
-                                  : ""),
-            fmt::format("write at least \"{}\"", given.text("feed.height", least_height)));
+    given.require("feed.height", feed_height(s), floor_under_feed(s) + 3 * largest,
+                  "3 of the largest diameters above the highest point of the floor under the feed, where "
+                  "grains would find no room above those that lie there");
     if (feed_speed(s) > fastest)
         given.fail(
             "feed.mass_flow",
@@ -252,20 +204,23 @@ void check_counts(Scenario const& scenario, GivenKeys const& given) {
 void complete_layer(Scenario& scenario, GivenKeys const& given) {
     Layer& layer = scenario.layer;
     double const largest = largest_diameter(scenario);
-    check_box("layer.length", layer.length, largest, given);
-    check_box("layer.width", layer.width, largest, given);
-    check_floor(layer, largest, given);
+    std::string const least =
+        fmt::format("4 diameters of the largest grains ({} each)", given.text("grains.diameter", largest));
+    given.require("layer.length", layer.length, 4 * largest, least);
+    given.require("layer.width", layer.width, 4 * largest, least);
+    // The floor's mesh has a triangle for every few grains on it.
+    given.require_at_most("layer.length", layer.length * layer.width / (largest * largest),
+                          most_grains_on_floor, "grains side by side on the floor",
+                          "make the box smaller or the grains larger; is the unit of the diameter right?");
     if (scenario.trough.mesh) check_mesh(scenario, given);
     if (layer.block != Block::none) layer.grains = 1;
     if (layer.diameters) layer.height = *layer.diameters * mean_diameter(scenario);
     if (layer.height) layer.grains = grains_for(*layer.height, scenario, given);
     complete_feed(scenario, given);
     check_counts(scenario, given);
-    std::size_t const spheres =
-        static_cast<std::size_t>(layer.grains) * shape_spheres(scenario.grains).size();
-    if (spheres > most_spheres)
-        given.fail("grains.shape", fmt::format("the layer would need {} spheres", spheres),
-                   "take fewer grains");
+    auto const of_a_grain = static_cast<double>(shape_spheres(scenario.grains).size());
+    given.require_at_most("grains.shape", layer.grains * of_a_grain, most_spheres, "spheres",
+                          "take fewer grains");
 }
 
 }  // namespace vibrotrough::scenario

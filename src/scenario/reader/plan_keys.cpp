@@ -32,19 +32,16 @@ bool lists_frame_packings(Scenario const& s) {
 void set_templates(Scenario& s, GivenValue const& v) {
     std::vector<std::string> names = v.words();
     std::ranges::sort(names);
-    std::lock_guard const one_case(v.files_read().one_case);
-    auto& known = v.files_read().templates[names];
-    if (!known) {
-        DeckTemplates templates;
-        for (std::string const& name : names) {
-            if (!is_template_name(name) || std::ranges::count(names, name) > 1)
-                v.fail(fmt::format("'{}' is not the name of a template, or is listed twice", name),
-                       "write names without a path, such as \"contact.mustache\"");
-            templates.files.push_back(v.file(name));
-        }
-        known = std::make_shared<DeckTemplates const>(std::move(templates));
-    }
-    s.engine.templates = known;
+    for (std::string const& name : names)
+        if (!is_template_name(name) || std::ranges::count(names, name) > 1)
+            v.fail(fmt::format("'{}' is not the name of a template, or is listed twice", name),
+                   "write names without a path, such as \"contact.mustache\"");
+    s.engine.templates = read_once(
+        v.files_read().templates, v, names,
+        [](std::vector<NamedFile> files) {
+            return std::make_shared<DeckTemplates const>(DeckTemplates{std::move(files)});
+        },
+        "");
 }
 
 std::optional<Content> templates_of(Scenario const& s) {

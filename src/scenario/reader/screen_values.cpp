@@ -1,7 +1,6 @@
 #include "scenario/reader/given_values.hpp"
 
 #include <cmath>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -28,20 +27,13 @@ void check_side(Scenario const& s, char const* key, double side, GivenKeys const
 void check_holes(Scenario const& s, GivenKeys const& given) {
     constexpr double widest = 20, most_hole_triangles = 1e6;
     double const opening = *s.screen.opening, wire = *s.screen.wire;
-    if (wire < opening / widest)
-        given.fail("screen.wire",
-                   fmt::format("{} is less than a twentieth of the opening of {}",
-                               given.text("screen.wire", wire), given.text("screen.opening", opening)),
-                   fmt::format("write at least \"{}\"", given.text("screen.wire", opening / widest)));
+    given.require("screen.wire", wire, opening / widest, "a twentieth of the opening");
     if (is_batch(s)) check_side(s, "layer.length", s.layer.length, given);
     check_side(s, "layer.width", s.layer.width, given);
     double const pitch = hole_pitch(s.screen);
     double const triangles = s.layer.length * s.layer.width / (pitch * pitch) * 4 * (opening / wire + 4);
-    if (triangles > most_hole_triangles)
-        given.fail("screen.opening",
-                   fmt::format("the screen would have {:.3g} triangles, more than {:g}", triangles,
-                               most_hole_triangles),
-                   "make the box smaller, or are the units right?");
+    given.require_at_most("screen.opening", triangles, most_hole_triangles, "triangles of the screen",
+                          "make the box smaller, or are the units right?");
 }
 
 /// Behind the plate under the feed there must be room for holes.

@@ -22,15 +22,13 @@ constexpr KeyAccess standstill{.get_entry = [](Scenario const& s, std::size_t i)
                                },
                                .set_entry = of_stage<&GivenStage::standstill>.set_entry};
 
-constexpr KeyAccess waveform{.get_entry = [](Scenario const& s, std::size_t i) -> std::optional<Content> {
-                                 auto const motion = stage_at(s, i).waveform;
-                                 return motion ? content_of(motion->file.name) : std::nullopt;
-                             },
-                             .set_entry =
-                                 [](Scenario& s, std::size_t i, GivenValue const& v) {
-                                     entry_of(s.stages, i).waveform = read_once(
-                                         v.files_read().waveforms, read_waveform, v, waveform_advice);
-                                 }};
+constexpr KeyAccess waveform{
+    .get_entry = [](Scenario const& s, std::size_t i) -> std::optional<Content> {
+        auto const motion = stage_at(s, i).waveform;
+        return motion ? content_of(motion->file.name) : std::nullopt;
+    },
+    .set_entry = [](Scenario& s, std::size_t i,
+                    GivenValue const& v) { entry_of(s.stages, i).waveform = waveform_of(v); }};
 
 constexpr KeyAccess stroke{
     .get_entry = [](Scenario const& s, std::size_t i) -> std::optional<Content> {

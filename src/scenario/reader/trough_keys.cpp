@@ -62,24 +62,12 @@ std::optional<Content> harmonics_of(Scenario const& s) {
 }
 
 void set_waveform(Scenario& s, GivenValue const& v) {
-    s.trough.waveform = read_once(v.files_read().waveforms, read_waveform, v, waveform_advice);
+    s.trough.waveform = waveform_of(v);
 }
 
 void set_mesh(Scenario& s, GivenValue const& v) {
-    std::vector<std::string> const names = v.is_word() ? std::vector{v.word()} : v.words();
-    std::lock_guard const one_case(v.files_read().one_case);
-    auto& mesh = v.files_read().meshes[names];
-    try {
-        if (!mesh) {
-            std::vector<NamedFile> files;
-            for (std::string const& name : names) files.push_back(v.file(name));
-            mesh = read_trough_mesh(std::move(files));
-        }
-    } catch (std::invalid_argument const& error) {
-        v.fail(fmt::format("{}: {}", fmt::join(names, ", "), error.what()),
-               "export the surface that the grains touch as STL");
-    }
-    s.trough.mesh = mesh;
+    s.trough.mesh = read_once(v.files_read().meshes, v, v.is_word() ? std::vector{v.word()} : v.words(),
+                              read_trough_mesh, "export the surface that the grains touch as STL");
 }
 
 std::optional<Content> mesh_of(Scenario const& s) {
@@ -93,7 +81,7 @@ bool has_mesh(Scenario const& s) {
     return s.trough.mesh != nullptr;
 }
 
-std::optional<Content> waveform_of(Scenario const& s) {
+std::optional<Content> waveform_name(Scenario const& s) {
     return s.trough.waveform ? content_of(s.trough.waveform->file.name) : std::nullopt;
 }
 
@@ -183,7 +171,7 @@ constexpr std::array rows_of_trough{
         KeyAccess{harmonics_of, set_harmonics}},
     Key{"trough.waveform", file, "", 0, 0, file_or(".csv"), "", optional, "\"measured.csv\"",
         "one measured cycle (columns time_s,x_m,z_m) that replaces the sinusoid",
-        KeyAccess{waveform_of, set_waveform}},
+        KeyAccess{waveform_name, set_waveform}},
     Key{"trough.mesh", files, "", 0, 0, file_or(".stl"), "", optional, "\"chute.stl\"",
         "surface of triangles that replaces the flat floor, x along the trough, y across and z normal to it; "
         "its "

@@ -1,8 +1,5 @@
 #include "scenario/reader/given_values.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include <fmt/format.h>
 
 namespace vibrotrough::scenario {

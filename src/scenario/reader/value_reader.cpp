@@ -17,14 +17,6 @@
 namespace vibrotrough::scenario {
 namespace {
 
-/// "8 d", "8d" or "8 diameters"
-bool is_in_diameters(std::string_view text) {
-    bool const ends_with_d = text.size() > 1 && (text.back() == 'd' || text.back() == 'D');
-    return (ends_with_d &&
-            std::string_view(" 0123456789").find(text[text.size() - 2]) != std::string_view::npos) ||
-           text.find("diameter") != std::string_view::npos;
-}
-
 /// Reads the value of one key.
 class ValueReader {
   public:
@@ -174,20 +166,8 @@ class ValueReader {
         try {
             return core::parse_quantity(**node.as_string(), std::string(key_.unit));
         } catch (core::QuantityError const& error) {
-            if (key_.unit == "m" && is_in_diameters(**node.as_string())) fail_diameters(node);
             fail_as_told(node, error);
         }
-    }
-
-    /// The unit "d" is a day, which nobody means who writes a length.
-    [[noreturn]] void fail_diameters(toml::node const& node) const {
-        std::string const text = **node.as_string();
-        std::string const number = text.substr(0, text.find_first_not_of("0123456789."));
-        if (key_.path == "layer.height")
-            fail(node, fmt::format("{} is a depth in diameters of the grains", written(node)),
-                 fmt::format("write layer.diameters = {}", number));
-        fail(node, fmt::format("{} is a length in diameters of the grains", written(node)),
-             write_instead(key_));
     }
 
     /// What is wrong with a number, with its own advice where it has one.

@@ -1,17 +1,8 @@
 #include "theory/batch.hpp"
 
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/commands/theory/options.hpp"
-#include "app/exit_code.hpp"
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
 #include "store/theory_table.hpp"
-
-#include <filesystem>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {

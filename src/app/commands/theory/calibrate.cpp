@@ -1,20 +1,9 @@
-#include "app/commands.hpp"
 #include "app/commands/calibration_options.hpp"
+#include "app/commands/command.hpp"
 #include "app/commands/theory/options.hpp"
-#include "app/exit_code.hpp"
-#include "app/standard_streams.hpp"
-#include "core/error.hpp"
 #include "learn/atlas_speed_model.hpp"
-#include "learn/calibration_report.hpp"
 #include "learn/layer_errors.hpp"
 #include "learn/point_mass_model.hpp"
-
-#include <algorithm>
-#include <map>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {
@@ -101,13 +90,10 @@ void add_theory_calibrate(CLI::App& theory, int& exit_code) {
     auto const options = std::make_shared<TheoryCalibrateArguments>();
     command->add_option("file", options->file, "CSV file of measured speeds")->required()->type_name("FILE");
     options->shared.add_to(*command);
-    command
-        ->add_option(
-            "--fix", options->fixed,
-            "Value of a quantity that is known, for example restitution=0.1; repeat the option for several")
-        ->type_name("NAME=VALUE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_repeated(
+        *command, "--fix", options->fixed,
+        "Value of a quantity that is known, for example restitution=0.1; repeat the option for several",
+        "NAME=VALUE");
     command
         ->add_option("--model", options->model,
                      "point-mass, or atlas: the simulated layers of spheres (validation/atlas)")

@@ -1,26 +1,28 @@
 #include "app/commands/theory/drive_space.hpp"
 
-#include "core/error.hpp"
+#include "app/commands/command.hpp"
 #include "core/typed_unit.hpp"
 #include "theory/design.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <sstream>
-
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {
 
 constexpr int most_poles = 48;  // of asynchronous motors
 
+std::vector<std::string> split(std::string const& text) {
+    std::vector<std::string> pieces;
+    std::stringstream rest(text);
+    for (std::string piece; std::getline(rest, piece, ',');) pieces.push_back(piece);
+    return pieces;
+}
+
 /// Hz, of a list such as "960,1450,2900"; empty when the text is a range, or a number with a decimal comma.
 std::vector<double> read_listed_speeds(Text const& rpm) {
     std::vector<double> frequencies;
     if (!rpm || rpm->find(',') == std::string::npos) return {};
-    std::stringstream pieces(*rpm);
-    for (std::string piece; std::getline(pieces, piece, ',');) {
+    for (std::string const& piece : split(*rpm)) {
         constexpr std::ptrdiff_t most_decimals = 2;
         if (std::ranges::count_if(piece, [](char c) { return c >= '0' && c <= '9'; }) <= most_decimals)
             return {};
@@ -41,8 +43,7 @@ std::vector<int> read_listed_poles(std::string const& text) {
     std::vector<int> all;
     if (text.ends_with(','))
         throw core::InputError(fmt::format("--poles {}: nothing follows the last comma", text));
-    std::stringstream pieces(text);
-    for (std::string piece; std::getline(pieces, piece, ',');) {
+    for (std::string const& piece : split(text)) {
         int const poles = read_count("--poles", piece, example, 2, most_poles);
         if (poles % 2 != 0)
             throw core::InputError(
@@ -87,8 +88,7 @@ std::vector<double> read_listed_amplitudes(Text const& stroke) {
     std::vector<double> amplitudes;
     if (!is_list) return amplitudes;
     std::string const unit = stroke->substr(stroke->find_last_of("0123456789.") + 1);
-    std::stringstream pieces(*stroke);
-    for (std::string piece; std::getline(pieces, piece, ',');) {
+    for (std::string const& piece : split(*stroke)) {
         bool const has_unit = piece.find('m') != std::string::npos;
         amplitudes.push_back(read_option("--stroke", has_unit ? piece : piece + unit) / 2);
     }

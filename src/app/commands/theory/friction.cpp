@@ -1,15 +1,6 @@
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/commands/theory/options.hpp"
-#include "app/exit_code.hpp"
-#include "app/standard_streams.hpp"
-#include "core/error.hpp"
 #include "theory/friction_test.hpp"
-
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vibrotrough::app {
 namespace {
@@ -18,8 +9,6 @@ struct TheoryFrictionArguments {
     QuantityOptions quantities;
     bool json = false;
 };
-
-using Json = nlohmann::ordered_json;
 
 std::string warning_for(std::string const& mode) {
     if (!theory::rests_within_cycle(mode)) return "";

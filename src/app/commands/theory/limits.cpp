@@ -1,18 +1,8 @@
 #include "theory/limits.hpp"
 
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/commands/theory/options.hpp"
-#include "app/exit_code.hpp"
-#include "core/error.hpp"
 #include "core/text.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vibrotrough::app {
 namespace {
@@ -21,8 +11,6 @@ struct TheoryLimitsArguments {
     QuantityOptions quantities;
     bool json = false;
 };
-
-using Json = nlohmann::ordered_json;
 
 struct Inputs {
     double tan_beta, tan_alpha, mu;

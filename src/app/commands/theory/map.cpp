@@ -1,19 +1,10 @@
 #include "theory/map.hpp"
 
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/commands/theory/options.hpp"
-#include "app/exit_code.hpp"
-#include "app/standard_streams.hpp"
-#include "core/error.hpp"
 #include "store/theory_map.hpp"
 #include "view/theory_map_vtk.hpp"
 #include "view/vtk.hpp"
-
-#include <filesystem>
-#include <memory>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {

@@ -1,15 +1,9 @@
-#include "app/commands/option_table.hpp"
-#include "core/error.hpp"
+#include "app/commands/command.hpp"
 #include "core/quantity.hpp"
-#include "core/text.hpp"
 #include "core/typed_unit.hpp"
 #include "theory/unusual.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <regex>
-
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {

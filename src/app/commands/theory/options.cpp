@@ -1,13 +1,7 @@
 #include "app/commands/theory/options.hpp"
 
-#include "app/standard_streams.hpp"
-#include "core/error.hpp"
+#include "app/commands/command.hpp"
 #include "core/quantity.hpp"
-
-#include <cmath>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {

@@ -1,18 +1,10 @@
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/commands/theory/options.hpp"
-#include "app/exit_code.hpp"
-#include "core/error.hpp"
 #include "theory/coexisting.hpp"
 #include "theory/quantities.hpp"
 #include "theory/tested_range.hpp"
 
-#include <cmath>
-#include <memory>
 #include <numbers>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vibrotrough::app {
 namespace {
@@ -23,8 +15,6 @@ struct TheoryPointArguments {
     QuantityOptions layer;
     bool json = false;
 };
-
-using Json = nlohmann::ordered_json;
 
 /// JSON cannot hold infinity, so an unbounded speed is null.
 Json finite_or_null(double value) {

@@ -1,13 +1,7 @@
+#include "app/commands/command.hpp"
 #include "app/commands/theory/options.hpp"
-#include "core/error.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace vibrotrough::app {
 namespace {

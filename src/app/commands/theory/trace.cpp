@@ -1,18 +1,7 @@
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/commands/theory/options.hpp"
-#include "app/exit_code.hpp"
-#include "core/atomic_file.hpp"
-#include "core/error.hpp"
 #include "theory/quantities.hpp"
 #include "theory/tested_range.hpp"
-
-#include <cmath>
-#include <memory>
-#include <optional>
-#include <utility>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {
