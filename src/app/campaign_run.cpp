@@ -7,7 +7,7 @@
 #include "app/progress_printer.hpp"
 #include "app/standard_streams.hpp"
 #include "campaign/schedule/forecast.hpp"
-#include "campaign/state/folder_lock.hpp"
+#include "campaign/state/file_lock.hpp"
 #include "campaign/state/overview.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -101,10 +101,8 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     fs::path const folder =
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     core::make_folder(folder);
-    {
-        // Fail now, before anything else is done, if the disk is full or another driver works in the folder.
-        campaign::FolderLock const lock(folder);
-    }
+    // Fail now, before anything else is done, if the disk is full or another driver works in the folder.
+    campaign::lock_campaign(folder);
     check(options, campaign);
     tell_not_covered(campaign.cases);
     bool const is_interrupted = !certify(engine, options.accept_failed_probes);

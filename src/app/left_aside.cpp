@@ -5,7 +5,7 @@
 namespace vibrotrough::app {
 
 void tell_left_aside(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
-    std::string const words = describe(campaign::find_left_aside(plan, cases), plan);
+    std::string const words = campaign::describe_left_aside(plan, cases);
     if (!words.empty()) tell("vibrotrough: left aside: {}\n", words);
 }
 

@@ -25,9 +25,7 @@ struct CheckArguments {
     bool json = false;
 };
 
-/// Grain-steps per second: Debian's LIGGGHTS 3.8.0 on one core with 600 to 5000 grains, 5 to 6.5 million were
-/// measured.
-constexpr double usual_speed = 5e6;
+using deck::usual_speed;
 
 Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -49,7 +47,7 @@ Json describe(prepare::PreparedCase const& prepared, int number, std::string con
     Json findings = Json::array();
     for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
     int const packings = deck::expected_packings(prepared.scenario);
-    double const work = packings * deck::expected_work(prepared);
+    double const work = deck::expected_work(prepared, packings);
     scenario::Grains const& grains = prepared.scenario.grains;
     double const density = mean_density(prepared.scenario);
     return {{"case", number},
@@ -81,11 +79,10 @@ void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& f
                     {"expected_core_hours", found.work / usual_speed / 3600}};
     std::string const begin = head.dump(2), end = tail.dump(2);
     fmt::print("{},\n  \"cases\": [", begin.substr(0, begin.rfind('\n')));
-    prepare::CasePreparer preparer;
     int number = 0;
     for (scenario::Scenario const& scenario : campaign.cases) {
         Json const one =
-            describe(preparer.prepare(scenario), ++number, swept_label(scenario, campaign.swept));
+            describe(prepare::prepare_case(scenario), ++number, swept_label(scenario, campaign.swept));
         fmt::print("{}\n{}", number == 1 ? "" : ",", one.dump(2));
     }
     fmt::print("\n  ],\n{}\n", end.substr(end.find('\n') + 1));
