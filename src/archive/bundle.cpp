@@ -59,8 +59,8 @@ class Bundle {
         zip_.add(name, content);
         files_.push_back({name, core::sha256_hex(content), content.size()});
     }
-    void add(std::vector<StoredFile> const& files) {
-        for (StoredFile const& file : files) add(file.name, core::read_file(file.source));
+    void add_files(fs::path const& folder, std::vector<std::string> const& names) {
+        for (std::string const& name : names) add(name, core::read_file(folder / name));
     }
     std::vector<ListedFile> const& files() const { return files_; }
     bool has(std::string_view start) const {
@@ -206,8 +206,9 @@ BundleReport write_bundle(campaign::Plan const& plan, campaign::Activity const& 
     bundle.add("tables/compare.csv", compare::to_csv(compared.rows, compared.columns));
     bundle.add("tables/compare.json", compare::to_json(compared.rows, compared.columns));
     bundle.add("tables/compare.txt", compare::to_table(compared.rows, {}, compared.columns));
-    bundle.add(files_of_campaign(plan));
-    for (campaign::PlannedCase const& planned : plan.cases) bundle.add(files_of_case(plan, planned));
+    bundle.add_files(plan.folder, files_of_campaign(plan));
+    for (campaign::PlannedCase const& planned : plan.cases)
+        bundle.add_files(plan.folder, files_of_case(plan, planned));
     CrateFacts facts = crate_facts(plan, compared.cases, making, words);
     facts.files = bundle.files();
     bundle.add("ro-crate-metadata.json", crate_metadata(facts));

@@ -23,7 +23,7 @@ class Collection {
     void add(std::string const& name) {
         std::error_code missing;
         if (!fs::exists(folder_ / name, missing) || fs::is_directory(folder_ / name, missing)) return;
-        files_.push_back({name, folder_ / name});
+        files_.push_back(name);
     }
 
     /// Adds all files below a folder but hidden ones. Links to folders are not followed.
@@ -43,11 +43,11 @@ class Collection {
         for (std::string const& file : found) add(file);
     }
 
-    std::vector<StoredFile> take() { return std::move(files_); }
+    std::vector<std::string> take() { return std::move(files_); }
 
   private:
     fs::path folder_;
-    std::vector<StoredFile> files_;
+    std::vector<std::string> files_;
 };
 
 /// The names of the files that the cases and the campaign file name; they are frozen in the campaign's
@@ -63,7 +63,7 @@ std::set<std::string> frozen_names(campaign::Plan const& plan) {
 
 }  // namespace
 
-std::vector<StoredFile> files_of_campaign(campaign::Plan const& plan) {
+std::vector<std::string> files_of_campaign(campaign::Plan const& plan) {
     Collection collection(plan.folder);
     for (char const* name : {"campaign.toml", "engine.json", "certificate.json", "friction.json",
                              "numerics.json", campaign::observables_file})
@@ -76,7 +76,7 @@ std::vector<StoredFile> files_of_campaign(campaign::Plan const& plan) {
     return collection.take();
 }
 
-std::vector<StoredFile> files_of_case(campaign::Plan const& plan, campaign::PlannedCase const& planned) {
+std::vector<std::string> files_of_case(campaign::Plan const& plan, campaign::PlannedCase const& planned) {
     Collection collection(plan.folder);
     std::string const folder = "cases/" + planned.id + "/";
     for (char const* name : {"scenario.toml", "result.h5", "failure.json"}) collection.add(folder + name);
