@@ -7,7 +7,7 @@
 #include "app/progress_printer.hpp"
 #include "app/standard_streams.hpp"
 #include "campaign/schedule/forecast.hpp"
-#include "campaign/state/folder_lock.hpp"
+#include "campaign/state/file_lock.hpp"
 #include "campaign/state/overview.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -62,7 +62,7 @@ void check_setup(RunOptions const& options, scenario::RunSettings const& setting
 }  // namespace
 
 void tell_left_aside(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
-    std::string const words = describe(campaign::find_left_aside(plan, cases), plan);
+    std::string const words = campaign::describe_left_aside(plan, cases);
     if (!words.empty()) tell("vibrotrough: left aside: {}\n", words);
 }
 
@@ -135,10 +135,8 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     engine::Engine engine = engine_at(options.engine);
     fs::path const folder = results_folder(options.output, campaign.name);
     core::make_folder(folder);
-    {
-        // Fail now, before anything else is done, if the disk is full or another driver works in the folder.
-        campaign::FolderLock const lock(folder);
-    }
+    // Fail now, before anything else is done, if the disk is full or another driver works in the folder.
+    campaign::lock_campaign(folder);
     check(options, campaign);
     tell_not_covered(campaign.cases);
     bool const is_interrupted = !certify(engine, options.accept_failed_probes);

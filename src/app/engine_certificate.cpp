@@ -2,7 +2,6 @@
 
 #include "app/standard_streams.hpp"
 #include "core/error.hpp"
-#include "engine/binary_watch.hpp"
 #include "engine/probe.hpp"
 
 #include <algorithm>
@@ -14,20 +13,18 @@ namespace {
 
 /// One line for people: how many probes passed, and which failed.
 std::string verdict_of(engine::Certificate const& certificate) {
-    auto const& probes = certificate.probes;
-    auto const passed = std::ranges::count_if(probes, &engine::ProbeResult::passed);
-    std::string text = fmt::format("{} of {} probes passed", passed, probes.size());
-    if (certificate.passed()) return text;
-    auto const& worst = *std::ranges::find_if_not(probes, &engine::ProbeResult::passed);
-    std::string names;
-    for (engine::ProbeResult const& probe : probes) {
-        if (!probe.passed()) names += (names.empty() ? "" : ", ") + probe.name;
+    if (!certificate.problem.empty()) return certificate.problem;
+    std::string text, failed;
+    for (engine::ProbeResult const& probe : certificate.probes) {
+        if (probe.passed()) continue;
+        failed += (failed.empty() ? "" : ", ") + probe.name;
+        if (text.empty())
+            text = fmt::format(" ({}: measured {:.6g}, expected {:.6g})", probe.name, probe.measured,
+                               probe.expected);
     }
-    text += fmt::format("; failed: {} ({}: ", names, worst.name);
-    if (!worst.problem.empty()) return text + worst.problem + ")";
-    return text + fmt::format("measured {:.6g}, {} {:.6g})", worst.measured,
-                              worst.comparison == engine::Comparison::near ? "expected" : "at most",
-                              worst.expected);
+    auto const passed = std::ranges::count_if(certificate.probes, &engine::ProbeResult::passed);
+    return fmt::format("{} of {} probes passed{}{}", passed, certificate.probes.size(),
+                       failed.empty() ? "" : "; failed: " + failed, text);
 }
 
 }  // namespace
@@ -52,8 +49,6 @@ bool certify(engine::Engine& engine, bool accept_failed_probes) {
         if (!problem.empty()) tell("the certificate is not kept, the next run probes again: {}\n", problem);
         engine.certificate = engine::to_json(*certificate);
     }
-    engine.binary_sha256 = identity.binary_sha256();
-    engine.watch = std::make_shared<engine::BinaryWatch const>(identity);
     return true;
 }
 

@@ -37,8 +37,7 @@ Json as_json(campaign::RunningPacking const& one) {
               {"efficiency", nullptr},
               {"efficiency_half_width", nullptr},
               {"elapsed_s", one.elapsed},
-              {"time_to_go_s", known(one.time_to_go)},
-              {"silent_s", one.silent_for}};
+              {"time_to_go_s", known(one.time_to_go)}};
     if (one.estimate && std::isfinite(one.estimate->mean)) {
         json["efficiency"] = one.estimate->mean;
         if (std::isfinite(one.estimate->half_width)) json["efficiency_half_width"] = one.estimate->half_width;
@@ -110,14 +109,6 @@ CampaignLog const& LoggingObserver::log() {
 
 void LoggingObserver::progressed(campaign::Progress const& progress) {
     log();
-    for (campaign::RunningPacking const& one : progress.engines) {
-        if (one.silent_for <= 0 || !silent_.insert({one.planned->id, one.packing}).second) continue;
-        log().warn(
-            fmt::format("case {}, packing {}: no cycle for {:.0f} s after cycle {}, far longer than before; "
-                        "is its engine "
-                        "stopped, or the machine busy with something else?",
-                        one.planned->id, one.packing, one.silent_for, one.cycles));
-    }
     next_.progressed(progress);
 }
 

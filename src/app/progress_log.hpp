@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <set>
 #include <string>
 
 namespace vibrotrough::app {
@@ -74,7 +73,6 @@ class LoggingObserver : public campaign::Observer {
     campaign::Observer& next_;
     std::filesystem::path folder_;
     std::unique_ptr<CampaignLog> log_;
-    std::set<campaign::PackingId> silent_;  ///< that the log has mentioned
 };
 
 }  // namespace vibrotrough::app

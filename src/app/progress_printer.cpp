@@ -39,8 +39,8 @@ std::string describe(campaign::Progress const& progress) {
 /// "  throw_number 2, packing 2: cycle 21 of 24, eta 0.793 +- 0.051, 0:12 elapsed, about 0:04 to go"
 std::string describe(campaign::RunningPacking const& one) {
     std::string text = fmt::format("  {}, packing {}: ", name_of(*one.planned), one.packing);
-    text += one.time.moving > 0 ? fmt::format("cycle {} of {}", one.cycles, one.cycles_wanted)
-                                : "settling, before the trough moves";
+    text += one.is_moving ? fmt::format("cycle {} of {}", one.cycles, one.cycles_wanted)
+                          : "settling, before the trough moves";
     // One efficiency says nothing of a drive that changes in stages.
     bool const is_steady = one.planned->scenario().stages.empty();
     if (is_steady && one.estimate && std::isfinite(one.estimate->mean)) {
@@ -49,11 +49,7 @@ std::string describe(campaign::RunningPacking const& one) {
             text += fmt::format(" +- {:.3f}", one.estimate->half_width);
     }
     text += fmt::format(", {} elapsed", clock_time(one.elapsed));
-    if (one.silent_for > 0) {
-        text += fmt::format(", NO CYCLE FOR {}; is its engine stopped?", clock_time(one.silent_for));
-    } else if (is_worth_telling(one.time_to_go)) {
-        text += fmt::format(", about {} to go", clock_time(one.time_to_go));
-    }
+    if (is_worth_telling(one.time_to_go)) text += fmt::format(", about {} to go", clock_time(one.time_to_go));
     return text;
 }
 

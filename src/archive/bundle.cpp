@@ -15,6 +15,7 @@
 #include "core/version.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <mutex>
 #include <tuple>
@@ -38,7 +39,6 @@ with the point-mass theory of vibratory conveying.
   certificate.json         what the probes of the engine showed
   cases/<id>/              scenario.toml (the input of one case), result.h5 (its result with all cycles),
                            packing-<n>/ (the decks that LIGGGHTS ran: settle.liggghts, then in.liggghts)
-  decks/<id>/              the decks of cases that were not simulated
   campaign.h5              all cases in one table, with units
   observables.json         own quantities with the functions that measured them, where there are any
   tables/                  measured conveying beside the theory: compare.csv, compare.json, compare.txt
@@ -59,9 +59,8 @@ class Bundle {
         zip_.add(name, content);
         files_.push_back({name, core::sha256_hex(content), content.size()});
     }
-    void add(std::vector<StoredFile> const& files) {
-        for (StoredFile const& file : files)
-            add(file.name, file.content ? *file.content : core::read_file(file.source));
+    void add_files(fs::path const& folder, std::vector<std::string> const& names) {
+        for (std::string const& name : names) add(name, core::read_file(folder / name));
     }
     std::vector<ListedFile> const& files() const { return files_; }
     bool has(std::string_view start) const {
@@ -116,8 +115,11 @@ void refuse_to_leave_out(std::vector<campaign::CaseOverview> const& cases) {
 }
 
 void refuse_to_replace(fs::path const& output) {
+    // PKWARE's APPNOTE.TXT, 4.3.7: the name of the first file stands at byte 30.
+    std::string head(30 + std::string_view(facts_file).size(), '\0');
+    std::ifstream(output, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
     std::error_code missing;
-    if (!fs::exists(output, missing) || first_name_in_zip(output) == facts_file) return;
+    if (!fs::exists(output, missing) || (head.starts_with("PK\3\4") && head.ends_with(facts_file))) return;
     throw core::InputError(fmt::format(
         "{} is there already and is not a bundle; choose another file with --output", output.string()));
 }
@@ -137,16 +139,8 @@ struct Making {
     }
 };
 
-/// archive.json. Cases that ended without a result are named, because what the scheduler of a cluster knows
-/// of them is not in a file of the case.
-std::string archive_facts(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases,
-                          Making const& making) {
-    Json ended = Json::array();
-    for (campaign::CaseOverview const& one : cases) {
-        if (!one.result && one.outcome && !fs::exists(one.planned->failure_file())) {
-            ended.push_back({{"case", one.planned->id}, {"outcome", name_of(*one.outcome)}});
-        }
-    }
+/// archive.json.
+std::string archive_facts(campaign::Plan const& plan, Making const& making) {
     Json by = Json::array();
     for (auto const& [version, count] : making.versions) {
         by.push_back({{"program_version", std::get<0>(version)},
@@ -160,10 +154,9 @@ std::string archive_facts(campaign::Plan const& plan, std::vector<campaign::Case
                      {"archived_with",
                       {{"program_version", core::program_version()}, {"git_commit", core::program_commit()}}},
                      {"engine_version", plan.engine_version},
-                     {"cases", cases.size()},
+                     {"cases", plan.cases.size()},
                      {"results", making.results},
-                     {"results_made_with", by},
-                     {"ended_without_result", ended}};
+                     {"results_made_with", by}};
     return facts.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -205,32 +198,24 @@ BundleReport write_bundle(campaign::Plan const& plan, campaign::Activity const& 
     compare::ComparedCases const compared = compare::compared_cases(plan, activity, note);
     refuse_damaged_results(compared.cases);
     if (!rotten.empty()) throw_damaged(std::ranges::min(rotten));
-    if (!words.partial) {
-        refuse_to_leave_out(compared.cases);
-    }
+    if (!words.partial) refuse_to_leave_out(compared.cases);
 
     Bundle bundle(output);
-    bundle.add(facts_file, archive_facts(plan, compared.cases, making));
+    bundle.add(facts_file, archive_facts(plan, making));
     bundle.add("README.txt", readme);
     bundle.add("tables/compare.csv", compare::to_csv(compared.rows, compared.columns));
     bundle.add("tables/compare.json", compare::to_json(compared.rows, compared.columns));
     bundle.add("tables/compare.txt", compare::to_table(compared.rows, {}, compared.columns));
-    bundle.add(files_of_campaign(plan));
-    for (campaign::PlannedCase const& planned : plan.cases) {
-        std::vector<StoredFile> const files = files_of_case(plan, planned);
-        bundle.add(files);
-        bool const has_decks = std::ranges::any_of(
-            files, [](auto const& file) { return file.name.find("/packing-") != std::string::npos; });
-        if (has_decks) continue;
-        for (auto const& [name, content] : planned_decks(planned)) bundle.add(name, content);
-    }
+    bundle.add_files(plan.folder, files_of_campaign(plan));
+    for (campaign::PlannedCase const& planned : plan.cases)
+        bundle.add_files(plan.folder, files_of_case(plan, planned));
     CrateFacts facts = crate_facts(plan, compared.cases, making, words);
     facts.files = bundle.files();
     bundle.add("ro-crate-metadata.json", crate_metadata(facts));
     bundle.finish();
 
     BundleReport report;
-    report.left_aside = describe(campaign::find_left_aside(plan, compared.cases), plan);
+    report.left_aside = campaign::describe_left_aside(plan, compared.cases);
     report.results = making.results;
     report.files = bundle.files().size() + 1;
     report.bytes = fs::file_size(output);

@@ -29,12 +29,13 @@ struct BundleReport {
     std::uint64_t bytes = 0;  ///< of the bundle
     /// Of campaign.h5, which the bundle holds if it is up to date.
     campaign::CampaignFileState campaign_file = campaign::CampaignFileState::missing;
-    bool has_report = false;      ///< whether figures or a report are there
-    std::string left_aside = {};  ///< what of the campaign's folder is not in it (campaign::describe)
+    bool has_report = false;  ///< whether figures or a report are there
+    std::string left_aside =
+        {};  ///< what of the campaign's folder is not in it (campaign::describe_left_aside)
 };
 
-/// Writes a campaign as one ZIP file for the supplement of a paper: the frozen campaign, the decks of every
-/// case, results, certificate, tables, figures and report where there are any, versions, checksums, and
+/// Writes a campaign as one ZIP file for the supplement of a paper: the frozen campaign, the decks of the
+/// packings, results, certificate, tables, figures and report where there are any, versions, checksums, and
 /// metadata by RO-Crate 1.1. The same campaign makes the same bytes.
 /// @param activity  what the executors know of the campaign
 /// @param output    the file; a bundle of this name is replaced, and no other file

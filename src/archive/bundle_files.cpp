@@ -1,6 +1,5 @@
 #include "archive/bundle_files.hpp"
 
-#include "campaign/schedule/policy.hpp"
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/observables.hpp"
 #include "deck/deck.hpp"
@@ -24,12 +23,7 @@ class Collection {
     void add(std::string const& name) {
         std::error_code missing;
         if (!fs::exists(folder_ / name, missing) || fs::is_directory(folder_ / name, missing)) return;
-        files_.push_back({name, folder_ / name, {}});
-    }
-
-    /// Adds a file with other bytes than those in the folder.
-    void add(std::string const& name, std::string content) {
-        files_.push_back({name, folder_ / name, std::move(content)});
+        files_.push_back(name);
     }
 
     /// Adds all files below a folder but hidden ones. Links to folders are not followed.
@@ -49,11 +43,11 @@ class Collection {
         for (std::string const& file : found) add(file);
     }
 
-    std::vector<StoredFile> take() { return std::move(files_); }
+    std::vector<std::string> take() { return std::move(files_); }
 
   private:
     fs::path folder_;
-    std::vector<StoredFile> files_;
+    std::vector<std::string> files_;
 };
 
 /// The names of the files that the cases and the campaign file name; they are frozen in the campaign's
@@ -67,16 +61,9 @@ std::set<std::string> frozen_names(campaign::Plan const& plan) {
     return names;
 }
 
-/// The deck of a packing in a result; empty when the result was made without this packing.
-std::string deck_that_ran(store::CaseRecord const& result, int packing) {
-    auto const found =
-        std::ranges::find(result.packings, deck::packing_seed(packing), &store::PackingRecord::seed);
-    return found == result.packings.end() ? "" : found->deck;
-}
-
 }  // namespace
 
-std::vector<StoredFile> files_of_campaign(campaign::Plan const& plan) {
+std::vector<std::string> files_of_campaign(campaign::Plan const& plan) {
     Collection collection(plan.folder);
     for (char const* name : {"campaign.toml", "engine.json", "certificate.json", "friction.json",
                              "numerics.json", campaign::observables_file})
@@ -89,35 +76,19 @@ std::vector<StoredFile> files_of_campaign(campaign::Plan const& plan) {
     return collection.take();
 }
 
-std::vector<StoredFile> files_of_case(campaign::Plan const& plan, campaign::PlannedCase const& planned) {
+std::vector<std::string> files_of_case(campaign::Plan const& plan, campaign::PlannedCase const& planned) {
     Collection collection(plan.folder);
     std::string const folder = "cases/" + planned.id + "/";
     for (char const* name : {"scenario.toml", "result.h5", "failure.json"}) collection.add(folder + name);
     for (scenario::NamedFile const& file : named_files(planned.scenario()))
         collection.add(folder + file.name);
-    std::vector<int> const packings = started_packings(planned);
-    if (packings.empty()) return collection.take();
     // The decks of all packings consist of files of the same names.
     auto const deck = deck::make_deck(*planned.prepared, {1}).files;
-    // The result holds the decks that were run; those in the folder may have been edited since.
-    auto const result = read_whole_result(planned);
-    for (int const packing : packings) {
-        std::string const run = result ? deck_that_ran(*result, packing) : "";
-        for (auto const& [name, content] : deck) {
-            std::string const path = fmt::format("{}packing-{}/{}", folder, packing, name);
-            name == deck::drive_file && !run.empty() ? collection.add(path, run) : collection.add(path);
-        }
+    for (int const packing : started_packings(planned)) {
+        for (auto const& [name, content] : deck)
+            collection.add(fmt::format("{}packing-{}/{}", folder, packing, name));
     }
     return collection.take();
-}
-
-std::map<std::string, std::string> planned_decks(campaign::PlannedCase const& planned) {
-    std::map<std::string, std::string> files;
-    for (deck::PackingPlan const& packing : campaign::make_policy()->decide({&planned, {}, {}, {}}).wanted) {
-        for (auto& [name, content] : deck::make_deck(*planned.prepared, packing).files)
-            files[fmt::format("decks/{}/packing-{}/{}", planned.id, packing.number, name)] = content;
-    }
-    return files;
 }
 
 }  // namespace vibrotrough::archive

@@ -42,27 +42,6 @@ std::string media_type(std::string_view name) {
     return "text/plain";
 }
 
-/// What a file is, for those that every bundle has.
-std::string description_of(std::string const& name) {
-    static std::map<std::string, std::string> const known{
-        {"archive.json", "What this bundle is: versions of all programs that took part"},
-        {"README.txt", "How to read this bundle"},
-        {"campaign.toml", "The campaign file, as it was simulated"},
-        {"engine.json", "The engine that the campaign was planned with"},
-        {"certificate.json", "What the probes of the engine showed"},
-        {"campaign.h5", "All cases of the campaign in one table, with units"},
-        {"friction.json", "Friction of the layers as a whole"},
-        {"numerics.json", "Numerical error of the results"},
-        {"observables.json",
-         "Own quantities of the campaign's author, with the functions that measured them"},
-        {"tables/compare.csv", "Measured conveying beside the point-mass theory, one row per case"},
-        {"tables/compare.json", "The same table as JSON"},
-        {"tables/compare.txt", "The same table for people"},
-        {"report/report.html", "Report of the campaign, complete in itself"}};
-    if (auto const found = known.find(name); found != known.end()) return found->second;
-    return name.ends_with("/result.h5") ? "Result of the case with all cycles, with units" : "";
-}
-
 /// Percent-encodes what an identifier in JSON-LD, a URI path, may not hold (RFC 3986, 2.1).
 std::string uri(std::string_view name) {
     std::string text;
@@ -77,14 +56,12 @@ std::string uri(std::string_view name) {
 }
 
 Json file_entity(ListedFile const& file) {
-    Json entity{{"@id", uri(file.name)},
-                {"@type", "File"},
-                {"name", file.name},
-                {"contentSize", std::to_string(file.size)},
-                {"encodingFormat", media_type(file.name)},
-                {"sha256", file.sha256}};
-    if (std::string const what = description_of(file.name); !what.empty()) entity["description"] = what;
-    return entity;
+    return {{"@id", uri(file.name)},
+            {"@type", "File"},
+            {"name", file.name},
+            {"contentSize", std::to_string(file.size)},
+            {"encodingFormat", media_type(file.name)},
+            {"sha256", file.sha256}};
 }
 
 /// Decks are many and alike: they are in SHA256SUMS but have no entity of their own.
@@ -170,13 +147,13 @@ std::string crate_metadata(CrateFacts const& facts) {
         graph.add(file_entity(file));
     }
     for (ListedCase const& one : facts.cases) {
-        bool const was_begun = parts_of_case.contains("cases/" + one.id + "/");
-        std::string const folder = (was_begun ? "cases/" : "decks/") + one.id + "/";
+        std::string const folder = "cases/" + one.id + "/";
+        if (!parts_of_case.contains(folder)) continue;  // it was not begun
         Json entity{{"@id", folder},
                     {"@type", "Dataset"},
                     {"name", fmt::format("Case {}", one.id)},
                     {"description", one.description}};
-        if (was_begun) entity["hasPart"] = std::move(parts_of_case[folder]);
+        entity["hasPart"] = std::move(parts_of_case[folder]);
         parts.push_back(reference(folder));
         graph.add(entity);
     }

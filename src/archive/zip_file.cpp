@@ -5,14 +5,10 @@
 #include "core/limits.hpp"
 #include "core/text.hpp"
 
-#include <array>
-#include <cstring>
-
 #include <archive.h>
 #include <archive_entry.h>
 #include <fmt/format.h>
 #include <locale.h>
-#include <unistd.h>
 
 namespace vibrotrough::archive {
 namespace {
@@ -93,20 +89,6 @@ void ZipWriter::finish() {
     if (archive_write_close(state_->writer.get()) != ARCHIVE_OK)
         refuse_to_write(state_->path, archive_error_string(state_->writer.get()));
     state_->file.finish(core::Sync::yes);
-}
-
-std::string first_name_in_zip(fs::path const& path) {
-    // PKWARE's APPNOTE.TXT, 4.3.7: the length of the first name stands at byte 26, the name at byte 30.
-    std::array<unsigned char, 30> head{};
-    core::Descriptor const file = core::open_to_read(path, core::Kinds::regular);
-    std::string name;
-    if (::read(file.number(), head.data(), head.size()) == static_cast<ssize_t>(head.size()) &&
-        std::memcmp(head.data(), "PK\3\4", 4) == 0) {
-        name.resize(static_cast<std::size_t>(head[26]) + 256 * static_cast<std::size_t>(head[27]));
-        ssize_t const count = ::read(file.number(), name.data(), name.size());
-        name.resize(count < 0 ? 0 : static_cast<std::size_t>(count));
-    }
-    return name;
 }
 
 }  // namespace vibrotrough::archive

@@ -29,7 +29,4 @@ class ZipWriter {
     std::unique_ptr<State> state_;
 };
 
-/// The name of the first file in a ZIP file; empty when it is no ZIP file.
-std::string first_name_in_zip(std::filesystem::path const& path);
-
 }  // namespace vibrotrough::archive

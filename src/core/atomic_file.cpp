@@ -92,14 +92,9 @@ void write_and_rename(fs::path const& path, std::string_view content, Sync sync)
     throw MissingError(fmt::format("cannot read {} ({})", path.string(), reason));
 }
 
-[[noreturn]] void refuse_kind(fs::path const& path) {
-    refuse_to_read(path, "it is a pipe, a socket or a device, and not a file");
-}
-
-/// Reads what the file had when it was opened: to the end without another question after it. Where the size
-/// is 0 it is only a hint, as for pipes and files in /proc.
-void read_to_end(Descriptor const& file, fs::path const& path, std::size_t size, std::size_t limit,
-                 std::string& content) {
+/// The bytes of a file up to its end. Its size is only a hint, as for pipes and files in /proc.
+std::string read_to_end(Descriptor const& file, fs::path const& path, std::size_t size, std::size_t limit) {
+    std::string content(std::max(size + 1, std::size_t{4096}), '\0');
     std::size_t length = 0;
     while (true) {
         ssize_t const count = ::read(file.number(), content.data() + length, content.size() - length);
@@ -108,16 +103,16 @@ void read_to_end(Descriptor const& file, fs::path const& path, std::size_t size,
         if (count == 0) break;
         length += static_cast<std::size_t>(count);
         if (length > limit) refuse_to_read(path, fmt::format("it is larger than {} MB", limit >> 20));
-        if (length == size) break;
         if (length == content.size()) content.resize(2 * length);
     }
     content.resize(length);
+    return content;
 }
 
-/// Reads a file that was opened.
-void read_descriptor(Descriptor const& file, fs::path const& path, Kinds kinds, std::size_t limit,
-                     std::string& content) {
-    if (!file.is_open() && errno == ESPIPE) refuse_kind(path);
+std::string read_opened(fs::path const& path, Kinds kinds, std::size_t limit) {
+    Descriptor const file = open_to_read(path, kinds);
+    if (!file.is_open() && errno == ESPIPE)
+        refuse_to_read(path, "it is a pipe, a socket or a device, and not a file");
     struct stat status {};
     if (!file.is_open() || ::fstat(file.number(), &status) != 0 || S_ISDIR(status.st_mode)) {
         std::string const reason = file.is_open() || errno == ENOENT || errno == EACCES
@@ -125,17 +120,9 @@ void read_descriptor(Descriptor const& file, fs::path const& path, Kinds kinds, 
                                        : reason_of(errno);
         throw MissingError(fmt::format("cannot open {} ({})", path.string(), reason));
     }
-    if (kinds == Kinds::regular && !S_ISREG(status.st_mode)) refuse_kind(path);
     auto const size = static_cast<std::size_t>(status.st_size);
     if (size > limit) refuse_to_read(path, fmt::format("it is larger than {} MB", limit >> 20));
-    content.resize(size > 0 ? size : std::max(content.capacity(), std::size_t{4096}));
-    read_to_end(file, path, size, limit, content);
-}
-
-std::string read_opened(fs::path const& path, Kinds kinds, std::size_t limit) {
-    std::string content;
-    read_descriptor(open_to_read(path, kinds), path, kinds, limit, content);
-    return content;
+    return read_to_end(file, path, size, limit);
 }
 
 }  // namespace
@@ -183,10 +170,6 @@ void NewFile::refuse() const {
 
 std::string read_file(fs::path const& path, std::size_t limit) {
     return read_opened(path, Kinds::regular, limit);
-}
-
-void read_file_into(fs::path const& path, std::string& content, std::size_t limit) {
-    read_descriptor(open_to_read(path, Kinds::regular), path, Kinds::regular, limit, content);
 }
 
 std::string read_given_file(fs::path const& path, std::size_t limit) {

@@ -21,10 +21,6 @@ constexpr std::size_t largest_note = std::size_t{64} << 20;
 /// @throws MissingError when it cannot be opened or read, or is not a regular file of this size
 std::string read_file(std::filesystem::path const& path, std::size_t limit = largest_file);
 
-/// The same into a text whose memory is used again, for many files one after the other.
-void read_file_into(std::filesystem::path const& path, std::string& content,
-                    std::size_t limit = largest_file);
-
 /// The same for a file that the user has named on the command line, which may be a pipe.
 /// @throws MissingError when it cannot be opened or read, or is longer than `limit`
 std::string read_given_file(std::filesystem::path const& path, std::size_t limit = largest_note);

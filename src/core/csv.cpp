@@ -43,44 +43,8 @@ std::string position(std::string const& file, int line) {
     return file.empty() ? fmt::format("line {}", line) : fmt::format("{}:{}", file, line);
 }
 
-}  // namespace
-
-CsvError::CsvError(std::string const& file, int line, std::string const& problem, std::string_view cure)
-    : InputError(cure.empty() ? fmt::format("{}: {}", position(file, line), problem)
-                              : fmt::format("{}: {}; {}", position(file, line), problem, cure)),
-      line_(line),
-      problem_(problem) {}
-
-CsvReader::CsvReader(std::string_view text, std::string file, CsvFormat format)
-    : text_(text), file_(std::move(file)), format_(std::move(format)), columns_(format_.columns) {
-    if (text_.size() > format_.most_bytes)
-        fail_at(1, fmt::format("the file is larger than {} bytes", format_.most_bytes), "use a smaller file");
-    if (is_utf16(text_)) {
-        decoded_ = std::make_shared<std::string const>(utf8_of_utf16(text_));
-        text_ = *decoded_;
-    }
-    if (text_.starts_with(byte_order_mark)) at_ = byte_order_mark.size();
-    take_separator_line();
-    if (columns_.empty()) read_header();
-}
-
-/// Excel writes and reads "sep=;" as the first line.
-void CsvReader::take_separator_line() {
-    std::string_view const line = text_.substr(at_, text_.find('\n', at_) - at_);
-    std::string_view const said = line.substr(0, line.find('\r'));
-    if (said.size() != 5 || !said.starts_with("sep=") || line.size() == text_.size() - at_) return;
-    if (said[4] != ',' && said[4] != ';' && said[4] != '\t')
-        fail_at(1, fmt::format("'{}' is not a separator", said.substr(4).substr(0, 4)),
-                "separate the cells by commas, semicolons or tabs");
-    separator_ = said[4];
-    knows_separator_ = true;
-    at_ += line.size() + 1;
-    ++line_;
-}
-
 /// ';' if there is one outside quotes on the first line of the text, else a tab, otherwise ','.
-char CsvReader::find_separator(std::string_view text) const {
-    if (knows_separator_) return separator_;
+char find_separator(std::string_view text) {
     bool in_quotes = false, has_tab = false, has_comma = false;
     for (char const c : text) {
         if (c == '"') in_quotes = !in_quotes;
@@ -93,18 +57,29 @@ char CsvReader::find_separator(std::string_view text) const {
     return has_tab && !has_comma ? '\t' : ',';
 }
 
+}  // namespace
+
+CsvError::CsvError(std::string const& file, int line, std::string const& problem, std::string_view cure)
+    : InputError(cure.empty() ? fmt::format("{}: {}", position(file, line), problem)
+                              : fmt::format("{}: {}; {}", position(file, line), problem, cure)),
+      line_(line),
+      problem_(problem) {}
+
+CsvReader::CsvReader(std::string_view text, std::string file, CsvFormat format)
+    : text_(text), file_(std::move(file)), format_(std::move(format)), columns_(format_.columns) {
+    if (text_.size() > format_.most_bytes)
+        fail_at(1, fmt::format("the file is larger than {} bytes", format_.most_bytes), "use a smaller file");
+    if (text_.starts_with(byte_order_mark)) at_ = byte_order_mark.size();
+    if (columns_.empty()) read_header();
+}
+
 void CsvReader::read_header() {
     if (!find_row()) {
         if (format_.growing) return;
         fail_at(1, "the file is empty", "begin it with a line of column names");
     }
-    separator_ =
-        find_separator(text_.substr(quoted_ ? at_ : static_cast<std::size_t>(row_.data() - text_.data())));
-    if (!quoted_) {
-        split_plain(row_);
-    } else if (!split_quoted()) {
-        return;  // the header of this growing text is not complete yet
-    }
+    separator_ = find_separator(text_.substr(at_));
+    if (!split()) return;  // the header of this growing text is not complete yet
     header_line_ = row_line_;
     columns_.assign(cells_.begin(), cells_.end());
     check_columns();
@@ -130,36 +105,25 @@ bool CsvReader::has_columns(std::span<std::string_view const> names) const {
     return std::equal(columns_.begin(), columns_.end(), names.begin(), names.end());
 }
 
-/// Finds the next line that is neither a comment nor blank.
+/// Goes to the next line that is neither a comment nor blank. A row with quotes may be longer.
 bool CsvReader::find_row() {
     while (at_ < text_.size()) {
-        std::size_t const end = text_.find('\n', at_);
-        bool const whole = end != std::string_view::npos;
-        if (!whole && format_.growing) break;
-        std::string_view line = text_.substr(at_, (whole ? end : text_.size()) - at_);
-        if (line.ends_with('\r')) line.remove_suffix(1);
-        bool const comment = format_.comments && line.starts_with('#');
+        std::size_t const end = std::min(text_.find('\n', at_), text_.size());
+        if (end == text_.size() && format_.growing) break;
+        row_ = text_.substr(at_, end - at_);
+        if (row_.ends_with('\r')) row_.remove_suffix(1);
         row_line_ = line_;
-        quoted_ = !comment && line.find('"') != std::string_view::npos;
-        if (quoted_) return true;  // the row may continue on the next line
-        at_ = whole ? end + 1 : text_.size();
-        ++line_;
-        if (comment || (format_.blanks && std::all_of(line.begin(), line.end(), is_space))) continue;
-        row_ = line;
-        return true;
+        bool const is_comment = format_.comments && row_.starts_with('#');
+        if (!is_comment && !(format_.blanks && std::ranges::all_of(row_, is_space))) return true;
+        skip_line();
     }
     at_ = text_.size();
     return false;
 }
 
-void CsvReader::split_plain(std::string_view line) {
-    cells_.clear();
-    while (true) {
-        std::size_t const end = line.find(separator_);
-        cells_.push_back(trimmed(line.substr(0, end)));
-        if (end == std::string_view::npos) break;
-        line.remove_prefix(end + 1);
-    }
+void CsvReader::skip_line() {
+    at_ = std::min(text_.find('\n', at_), text_.size() - 1) + 1;
+    ++line_;
 }
 
 /// Reads the cell whose opening quote is at `at_` and moves `at_` behind its closing quote. Returns false
@@ -204,9 +168,8 @@ void CsvReader::skip_spaces() {
     while (at_ < text_.size() && text_[at_] != separator_ && is_space(text_[at_])) ++at_;
 }
 
-/// Splits the row that begins at `at_` and has quotes. Returns false when a growing text does not have all of
-/// the row yet.
-bool CsvReader::split_quoted() {
+/// Splits the row that begins at `at_`. Returns false when a growing text does not have all of it yet.
+bool CsvReader::split() {
     cells_.clear();
     unescaped_.clear();
     while (true) {
@@ -220,8 +183,7 @@ bool CsvReader::split_quoted() {
                 fail_at(opened, "an opening quote has no closing quote", "write the closing quote");
             }
             skip_spaces();
-            if (text_.substr(at_).starts_with("\r\n")) ++at_;
-            if (text_.substr(at_) == "\r") ++at_;
+            if (text_.substr(at_).starts_with("\r\n") || text_.substr(at_) == "\r") ++at_;
             if (at_ < text_.size() && text_[at_] != separator_ && text_[at_] != '\n')
                 fail_at(line_, "there is text after the closing quote of a cell",
                         "put the whole cell in quotes and double the quotes within it");
@@ -237,14 +199,8 @@ bool CsvReader::split_quoted() {
 }
 
 bool CsvReader::next() {
-    if (columns_.empty() || !find_row()) return false;
-    if (!quoted_) {
-        split_plain(row_);
-    } else if (!split_quoted()) {
-        return false;
-    }
-    if (++rows_ > format_.most_rows)
-        fail(fmt::format("there are more than {} rows", format_.most_rows), "use a smaller table");
+    if (columns_.empty() || !find_row() || !split()) return false;
+    count_row();
     if (cells_.size() != columns_.size())
         fail(fmt::format("expected {} values, one per column, but found {}", columns_.size(), cells_.size()),
              separator_ == ',' && cells_.size() > columns_.size()
@@ -254,8 +210,13 @@ bool CsvReader::next() {
     return true;
 }
 
-/// Reads the numbers without splitting the row into cells first. Returns false when the row contains anything
-/// but numbers and commas.
+void CsvReader::count_row() {
+    if (++rows_ > format_.most_rows)
+        fail(fmt::format("there are more than {} rows", format_.most_rows), "use a smaller table");
+}
+
+/// Reads the numbers without splitting the row into cells. Returns false when it contains anything but
+/// numbers and commas.
 bool CsvReader::parse_numbers(std::span<double> row) const {
     char const* at = row_.data();
     char const* const end = at + row_.size();
@@ -274,15 +235,12 @@ bool CsvReader::next(std::span<double> row) {
     if (columns_.empty()) return false;
     if (row.size() != columns_.size())
         throw std::invalid_argument("CsvReader::next: the row must have one element for each column");
-    std::size_t const at = at_;
-    int const line = line_;
     if (!find_row()) return false;
-    if (!quoted_ && separator_ == ',' && rows_ < format_.most_rows && parse_numbers(row)) {
-        ++rows_;
+    if (separator_ == ',' && parse_numbers(row)) {
+        skip_line();
+        count_row();
         return true;
     }
-    at_ = at;
-    line_ = line;
     if (!next()) return false;
     for (std::size_t column = 0; column < row.size(); ++column) row[column] = number(column);
     return true;

@@ -6,7 +6,6 @@
 #include <deque>
 #include <initializer_list>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,11 +56,10 @@ struct CsvFormat {
 ///
 /// - The separator is ';' where the header line has one outside quotes, a tab where it has a tab and no
 /// comma,
-///   and ',' otherwise. Where it is not the comma, numbers may have a decimal comma. A first line "sep=;",
-///   which Excel understands, decides.
+///   and ',' otherwise. Where it is not the comma, numbers may have a decimal comma.
 /// - A cell in double quotes may hold separators, line ends and doubled quotes. Spaces and tabs around a
 ///   cell do not belong to it unless they are within its quotes.
-/// - Lines end with LF or CR LF. A UTF-8 byte order mark is skipped; UTF-16 with its mark is read, too.
+/// - Lines end with LF or CR LF. A UTF-8 byte order mark is skipped.
 /// - Every row has as many cells as the header. Column names are neither empty nor given twice.
 ///
 /// The text must outlive the reader and the cells.
@@ -102,11 +100,10 @@ class CsvReader {
     [[noreturn]] void fail(std::string const& problem, std::string_view cure) const;
 
   private:
-    void take_separator_line();
-    char find_separator(std::string_view text) const;
     bool find_row();
-    void split_plain(std::string_view line);
-    bool split_quoted();
+    void skip_line();
+    bool split();
+    void count_row();
     bool read_quoted_cell(std::string_view& cell);
     void take_plain_cell();
     void skip_spaces();
@@ -115,20 +112,17 @@ class CsvReader {
     bool parse_numbers(std::span<double> row) const;
     [[noreturn]] void fail_at(int line, std::string const& problem, std::string_view cure) const;
 
-    std::shared_ptr<std::string const> decoded_;  ///< the text in UTF-8 when it was given in UTF-16
     std::string_view text_;
     std::string file_;
     CsvFormat format_;
     std::vector<std::string> columns_;
     char separator_ = ',';
-    bool knows_separator_ = false;  ///< from a first line "sep=;"
     int header_line_ = 0;
-    std::size_t at_ = 0;  ///< index in `text_` at which the next row begins
+    std::size_t at_ = 0;  ///< index in `text_` at which the row or the next one begins
     int line_ = 1;        ///< the line at `at_`
     int row_line_ = 0;
     std::size_t rows_ = 0;
-    std::string_view row_;  ///< the row's text when it is one line without quotes
-    bool quoted_ = false;   ///< the row has quotes and begins at `at_`
+    std::string_view row_;  ///< the first line of the row, without its end
     std::vector<std::string_view> cells_;
     std::deque<std::string> unescaped_;  ///< cells of this row that had doubled quotes
 };

@@ -1,8 +1,5 @@
 #include "core/note.hpp"
 
-#include <cstdint>
-#include <utility>
-
 #include <fmt/format.h>
 
 namespace vibrotrough::core::note {
@@ -15,12 +12,20 @@ Json const& member(Json const& note, std::string_view key) {
     return *found;
 }
 
-std::vector<std::string> texts_of(Json const& values, std::string const& key) {
-    if (!values.is_array()) throw Fault(fmt::format("'{}' holds what is not a list", key));
-    std::vector<std::string> found;
-    for (Json const& value : values) {
-        if (!value.is_string()) throw Fault(fmt::format("'{}' holds what is not a text", key));
-        found.push_back(value.get<std::string>());
+Json const& member(Json const& note, std::string_view key, bool (Json::*is_kind)() const, char const* kind) {
+    Json const& value = member(note, key);
+    if (!(value.*is_kind)()) throw Fault(fmt::format("'{}' is not {}", key, kind));
+    return value;
+}
+
+/// The elements of a list, which all are of one kind.
+template <typename Element>
+std::vector<Element> all_of(Json const& note, std::string const& key, bool (Json::*is_kind)() const,
+                            char const* kind) {
+    std::vector<Element> found;
+    for (Json const& value : list(note, key)) {
+        if (!(value.*is_kind)()) throw Fault(fmt::format("'{}' holds what is not {}", key, kind));
+        found.push_back(value.get<Element>());
     }
     return found;
 }
@@ -38,9 +43,7 @@ Json parse(std::string_view text) {
 }
 
 Json const& object(Json const& note, std::string_view key) {
-    Json const& value = member(note, key);
-    if (!value.is_object()) throw Fault(fmt::format("'{}' is not an object", key));
-    return value;
+    return member(note, key, &Json::is_object, "an object");
 }
 
 Json const& elements(Json const& note) {
@@ -49,15 +52,11 @@ Json const& elements(Json const& note) {
 }
 
 Json const& list(Json const& note, std::string_view key) {
-    Json const& value = member(note, key);
-    if (!value.is_array()) throw Fault(fmt::format("'{}' is not a list", key));
-    return value;
+    return member(note, key, &Json::is_array, "a list");
 }
 
 double number(Json const& note, std::string const& key, double least) {
-    Json const& value = member(note, key);
-    if (!value.is_number()) throw Fault(fmt::format("'{}' is not a number", key));
-    auto const number = value.get<double>();
+    auto const number = member(note, key, &Json::is_number, "a number").get<double>();
     if (number < least) throw Fault(fmt::format("'{}' is below {}", key, least));
     return number;
 }
@@ -68,21 +67,13 @@ std::optional<double> known_number(Json const& note, std::string const& key, dou
 }
 
 std::vector<double> numbers(Json const& note, std::string const& key) {
-    std::vector<double> found;
-    for (Json const& value : list(note, key)) {
-        if (!value.is_number()) throw Fault(fmt::format("'{}' holds what is not a number", key));
-        found.push_back(value.get<double>());
-    }
-    return found;
+    return all_of<double>(note, key, &Json::is_number, "a number");
 }
 
 long whole_number(Json const& note, std::string const& key, long least, long most) {
     Json const& value = member(note, key);
-    bool const is_within =
-        value.is_number_unsigned()
-            ? std::cmp_greater_equal(value.get<std::uint64_t>(), least) &&
-                  std::cmp_less_equal(value.get<std::uint64_t>(), most)
-            : value.is_number_integer() && value.get<long>() >= least && value.get<long>() <= most;
+    // JSON has one type for numbers below zero and one for others, which may be larger than a long.
+    bool const is_within = value.is_number_integer() && value <= most && value >= least;
     if (!is_within) throw Fault(fmt::format("'{}' is not a whole number from {} to {}", key, least, most));
     return value.get<long>();
 }
@@ -92,17 +83,19 @@ int count(Json const& note, std::string const& key, int least) {
 }
 
 std::vector<std::string> texts(Json const& note, std::string const& key) {
-    return texts_of(list(note, key), key);
+    return all_of<std::string>(note, key, &Json::is_string, "a text");
 }
 
 std::string text(Json const& note, std::string const& key) {
-    Json const& value = member(note, key);
-    if (!value.is_string()) throw Fault(fmt::format("'{}' is not a text", key));
-    return value.get<std::string>();
+    return member(note, key, &Json::is_string, "a text").get<std::string>();
 }
 
 std::string text_if_any(Json const& note, std::string const& key) {
     return note.contains(key) ? text(note, key) : std::string();
+}
+
+Json known_or_null(std::optional<double> const& number) {
+    return number ? Json(*number) : Json(nullptr);
 }
 
 }  // namespace vibrotrough::core::note

@@ -57,4 +57,7 @@ std::string text(Json const& note, std::string const& key);
 /// The same where the text may be missing and then is empty. @throws Fault when it is something else
 std::string text_if_any(Json const& note, std::string const& key);
 
+/// A number that may not be known, as null then.
+Json known_or_null(std::optional<double> const& number);
+
 }  // namespace vibrotrough::core::note

@@ -16,7 +16,7 @@ int count_available_cores();
 
 /// The quota of processor time of a control group and of those above it, in cores: that of a container
 /// (--cpus), of systemd (CPUQuota) or of a cluster's task. None where nothing limits it, or nothing can be
-/// read. Both versions of the kernel's control groups are known.
+/// read. Of version 2 of the kernel's control groups.
 /// @param mounted  where control groups are mounted, usually /sys/fs/cgroup
 /// @param groups   the process's own, as /proc/self/cgroup lists them
 std::optional<double> find_core_quota(std::filesystem::path const& mounted, std::string const& groups);
@@ -25,8 +25,8 @@ std::optional<double> find_core_quota(std::filesystem::path const& mounted, std:
 using IndexedWork = std::function<void(std::size_t i)>;
 
 /// Does work with items 0 ... count - 1 on all cores that this process may use, each item once and in any
-/// order. The items must not depend on one another. Where the first one waits most of its time, as for a slow
-/// file system, up to 64 threads wait at the same time.
+/// order. The items must not depend on one another. There are at least 16 threads, as far as the items are
+/// worth them, because most items wait for files.
 /// @param least      items that are worth a thread of their own
 /// @param make_work  is called once in each thread, so that each has its own state; it must not throw
 /// @throws what the work on an item throws: of the first item by number, whichever thread was faster

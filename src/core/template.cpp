@@ -1,69 +1,19 @@
 #include "core/template.hpp"
 
 #include <stdexcept>
-#include <utility>
-#include <variant>
 
 #include <fmt/format.h>
-#include <kainjow/mustache.hpp>
 
 namespace vibrotrough::core {
-
-namespace mustache = kainjow::mustache;
-
-struct TemplateData::Entry {
-    std::string name;
-    std::variant<std::string, bool, std::vector<TemplateData>> value;
-};
-
-TemplateData::TemplateData() = default;
-TemplateData::TemplateData(TemplateData const& other) = default;
-TemplateData::TemplateData(TemplateData&& other) noexcept = default;
-TemplateData& TemplateData::operator=(TemplateData other) noexcept {
-    entries_.swap(other.entries_);
-    return *this;
-}
-TemplateData::~TemplateData() = default;
-
-void TemplateData::set(std::string name, std::string text) {
-    entries_.push_back({std::move(name), std::move(text)});
-}
-
-void TemplateData::set(std::string name, bool shown) {
-    entries_.push_back({std::move(name), shown});
-}
-
-void TemplateData::set(std::string name, std::vector<TemplateData> list) {
-    entries_.push_back({std::move(name), std::move(list)});
-}
-
-struct TemplateData::Converter {
-    static mustache::data convert(TemplateData const& data) {
-        mustache::data object{mustache::data::type::object};
-        for (Entry const& entry : data.entries_) {
-            if (auto const* text = std::get_if<std::string>(&entry.value)) {
-                object.set(entry.name, *text);
-            } else if (auto const* shown = std::get_if<bool>(&entry.value)) {
-                object.set(entry.name, *shown);
-            } else {
-                mustache::list elements;
-                for (TemplateData const& element : std::get<std::vector<TemplateData>>(entry.value))
-                    elements.push_back(convert(element));
-                object.set(entry.name, elements);
-            }
-        }
-        return object;
-    }
-};
 
 std::string render(std::string_view text, TemplateData const& data, TemplateTags tags) {
     TemplateTags const usual;
     bool const has_other_tags = tags.begin != usual.begin || tags.end != usual.end;
     std::string const first =
         has_other_tags ? fmt::format("{}={} {}={}", usual.begin, tags.begin, tags.end, usual.end) : "";
-    mustache::mustache parsed(first + std::string(text));
+    kainjow::mustache::mustache parsed(first + std::string(text));
     parsed.set_custom_escape([](std::string const& value) { return value; });
-    std::string rendered = parsed.render(TemplateData::Converter::convert(data));
+    std::string rendered = parsed.render(data);
     if (!parsed.is_valid()) throw std::logic_error("template: " + parsed.error_message());
     return rendered;
 }

@@ -4,8 +4,9 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
+
+#include <kainjow/mustache.hpp>
 
 namespace vibrotrough::core {
 
@@ -15,33 +16,10 @@ struct TemplateTags {
     std::string_view end = "}}";    ///< after the name
 };
 
-/// The data of a template by name: texts, switches for sections, and lists for repeated sections.
-class TemplateData {
-  public:
-    TemplateData();                               ///< Without any name.
-    TemplateData(TemplateData const& other);      ///< Copies all names with their values.
-    TemplateData(TemplateData&& other) noexcept;  ///< `other` may only be assigned or destroyed then.
-    TemplateData& operator=(TemplateData other) noexcept;  ///< Takes over all names with their values.
-    ~TemplateData();
-
-    /// Sets the text that replaces the tag `{{name}}`. An earlier value of the name no longer counts.
-    void set(std::string name, std::string text);
-    /// Sets the text that replaces the tag `{{name}}`; without this overload a literal would become a bool.
-    void set(std::string name, char const* text) { set(std::move(name), std::string(text)); }
-    /// Sets whether the section that begins with `{{#name}}` is rendered. The inverted section, which begins
-    /// with
-    /// `{{^name}}`, is rendered otherwise.
-    void set(std::string name, bool shown);
-    /// Repeats the section that begins with `{{#name}}` once for each element. Within it, the names of the
-    /// element take precedence over the names outside.
-    void set(std::string name, std::vector<TemplateData> list);
-
-  private:
-    friend std::string render(std::string_view text, TemplateData const& data, TemplateTags tags);
-    struct Entry;
-    struct Converter;
-    std::vector<Entry> entries_;  ///< in the order in which they were set; the last one of a name counts
-};
+/// The data of a template: set(name, value) with a text, with a switch for a section, or with a list
+/// (std::vector<TemplateData>) for a section that is repeated, in which the names of the element take
+/// precedence over the names outside.
+using TemplateData = kainjow::mustache::data;
 
 /// A mustache template with data in its tags. Texts are inserted unchanged: nothing is escaped for HTML, so
 /// `{{name}}` and `{{{name}}}` are the same. A tag whose name has no data is replaced by an empty text.

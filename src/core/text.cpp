@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include <boost/locale/encoding_utf.hpp>
 #include <fmt/format.h>
 
 namespace vibrotrough::core {
@@ -81,19 +80,6 @@ std::string without_sign_of_zero(std::string number) {
 
 std::string three_digits(std::optional<double> const& value) {
     return value ? without_sign_of_zero(fmt::format("{:.3f}", *value)) : "-";
-}
-
-bool is_utf16(std::string_view text) {
-    return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
-}
-
-std::string utf8_of_utf16(std::string_view text) {
-    std::size_t const low = text.starts_with("\xFF\xFE") ? 0 : 1;
-    std::u16string units;
-    for (std::size_t i = 2; i + 1 < text.size(); i += 2)
-        units += static_cast<char16_t>(static_cast<unsigned char>(text[i + low]) |
-                                       static_cast<unsigned char>(text[i + 1 - low]) << 8);
-    return boost::locale::conv::utf_to_utf<char>(units.data(), units.data() + units.size());
 }
 
 std::string plain_number(double value, int digits) {

@@ -22,12 +22,6 @@ std::string without_sign_of_zero(std::string number);
 /// A number with three digits behind the point; "-" where it is not known.
 std::string three_digits(std::optional<double> const& value);
 
-/// Whether a text begins with the byte order mark of UTF-16, as Excel's "Unicode text" does.
-bool is_utf16(std::string_view text);
-
-/// Such a text in UTF-8, without its mark. Bytes that do not form a character are left out.
-std::string utf8_of_utf16(std::string_view text);
-
 /// A number with so many digits and without a power of ten, where that has at most 15 digits: "1150" and not
 /// "1.15e+03".
 std::string plain_number(double value, int digits);

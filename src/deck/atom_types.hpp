@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/template.hpp"
 #include "prepare/prepared_case.hpp"
 
 #include <string>
@@ -46,5 +47,8 @@ struct PairTables {
 
 /// The tables of a case.
 PairTables pair_tables(prepare::PreparedCase const& prepared);
+
+/// What the templates say of the contacts: models, materials and tables.
+void describe_contact(core::TemplateData& data, prepare::PreparedCase const& prepared);
 
 }  // namespace vibrotrough::deck

@@ -53,9 +53,8 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
     CampaignCheck total;
     // The certificate, the frozen campaign and campaign.h5.
     total.bytes = total.largest_bytes = 80e3;
-    prepare::CasePreparer preparer;
     for (scenario::Scenario const& scenario : campaign.cases) {
-        prepare::PreparedCase const prepared = preparer.prepare(scenario);
+        prepare::PreparedCase const prepared = prepare::prepare_case(scenario);
         ++total.cases;
         // A mistake in a template of the case is found now, and not when the first packing starts.
         if (total.cases == 1 && scenario.engine.templates) make_deck(prepared, {1});
@@ -66,7 +65,7 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
         total.most_modulus = std::max(total.most_modulus, modulus);
         if (prepared.modulus_chosen) ++total.moduli_chosen;
         double const packings = expected_packings(prepared.scenario);
-        total.work += packings * expected_work(prepared);
+        total.work += expected_work(prepared, packings);
         total.largest_step_cost = std::max(total.largest_step_cost, prepared.step_cost());
         total.bytes += expected_bytes(prepared);
         total.largest_bytes += largest_bytes(prepared);

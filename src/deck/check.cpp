@@ -1,13 +1,13 @@
 #include "deck/check.hpp"
 
 #include "deck/estimates.hpp"
-#include "deck/findings.hpp"
 #include "deck/open_trough.hpp"
 #include "prepare/contact.hpp"
 #include "prepare/softness.hpp"
 #include "theory/unusual.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -40,8 +40,6 @@ void check_time_step(std::vector<Finding>& findings, prepare::PreparedCase const
     findings.push_back(most("time step / contact time at twice the trough's speed", key,
                             time.contact_fraction, 0.101, 0.2,
                             "lower solver.rayleigh_fraction or soften the grains"));
-    findings.push_back(least("steps per contact at twice the trough's speed", key, 1 / time.contact_fraction,
-                             9.9, 5, "lower solver.rayleigh_fraction or soften the grains"));
     findings.push_back(least("steps per cycle", "solver.rayleigh_fraction", time.steps_per_cycle, 500, 100,
                              "lower it, so that the motion of the drive is resolved"));
     findings.push_back(most("steps per cycle, at most", key, time.steps_per_cycle, 1e5, never,
@@ -357,15 +355,8 @@ std::vector<Finding> check_stages(prepare::PreparedCase const& prepared) {
 }  // namespace
 
 std::string to_string(Severity severity) {
-    switch (severity) {
-        case Severity::fine:
-            return "fine";
-        case Severity::warning:
-            return "warning";
-        case Severity::error:
-            return "error";
-    }
-    return "unknown";
+    constexpr std::array names{"fine", "warning", "error"};
+    return names.at(static_cast<std::size_t>(severity));
 }
 
 double excess(Finding const& finding) {

@@ -2,7 +2,9 @@
 
 #include "prepare/prepared_case.hpp"
 
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vibrotrough::deck {
@@ -30,6 +32,29 @@ struct Finding {
 /// Largest ratio of large to small diameters at which LIGGGHTS 3.8.0 was seen to move a small grain between
 /// two large ones as it should (engine/README.md).
 constexpr double largest_tried_size_ratio = 20;
+
+/// A limit beyond which nothing is.
+inline constexpr double never = std::numeric_limits<double>::infinity();
+
+/// A finding whose limits are upper limits.
+inline Finding most(std::string item, std::string key, double measured, double limit, double hard_limit,
+                    std::string advice) {
+    Severity const severity = measured > hard_limit ? Severity::error
+                              : measured > limit    ? Severity::warning
+                                                    : Severity::fine;
+    return {severity, std::move(item), std::move(key), measured,         "1",
+            false,    limit,           hard_limit,     std::move(advice)};
+}
+
+/// A finding whose limits are lower limits.
+inline Finding least(std::string item, std::string key, double measured, double limit, double hard_limit,
+                     std::string advice) {
+    Severity const severity = measured < hard_limit           ? Severity::error
+                              : measured < limit * (1 - 1e-9) ? Severity::warning
+                                                              : Severity::fine;
+    return {severity, std::move(item), std::move(key), measured,         "1",
+            true,     limit,           hard_limit,     std::move(advice)};
+}
 
 /// How far a finding is beyond its limit (above 1) or within it.
 double excess(Finding const& finding);

@@ -1,11 +1,10 @@
 #include "deck/deck.hpp"
 
 #include "core/atomic_file.hpp"
+#include "core/error.hpp"
 #include "core/hash.hpp"
 #include "deck/deck_data.hpp"
-#include "deck/deck_folder.hpp"
 #include "deck/open_trough.hpp"
-#include "deck/phases.hpp"
 #include "deck/render.hpp"
 #include "deck/screen.hpp"
 #include "deck/trough_mesh.hpp"
@@ -86,7 +85,6 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     core::TemplateData data = describe(prepared, packing);
     describe_open(data, prepared, packing.number);
     describe_screen(data, prepared);
-    for (auto const& [name, value] : phase_sampling(prepared)) data.set(name, value);
     scenario::DeckTemplates const* const replaced = prepared.scenario.engine.templates.get();
     deck.settle_files = meshes(prepared);
     if (is_fed_screen(prepared.scenario)) add_end_wall(deck.settle_files, prepared);
@@ -145,12 +143,9 @@ std::string for_one_rank(std::string content) {
 }
 
 std::string digest_of(std::map<std::string, std::string> const& files) {
-    core::Sha256 digest;
-    for (auto const& [name, content] : files) {
-        digest.add(name + "\n");
-        digest.add(content);
-    }
-    return digest.hex();
+    std::vector<std::string_view> pieces;
+    for (auto const& [name, content] : files) pieces.insert(pieces.end(), {name, "\n", content});
+    return core::sha256_hex(pieces);
 }
 
 std::map<std::string, std::string> read_files(std::filesystem::path const& folder,
@@ -167,6 +162,25 @@ std::map<std::string, std::string> read_files(std::filesystem::path const& folde
 void write_files(std::map<std::string, std::string> const& files, std::filesystem::path const& folder) {
     core::make_folder(folder);
     for (auto const& [name, content] : files) core::replace_file(folder / name, content);
+}
+
+void write_case(std::filesystem::path const& folder, std::map<std::string, std::string> const& files) {
+    for (auto const& [name, content] : files) {
+        std::filesystem::path const path = folder / name;
+        if (!std::filesystem::exists(path) || core::read_file(path, core::largest_note) == content) continue;
+        throw core::InputError(fmt::format(
+            "{} is there already and holds something else; move it away, or choose another folder with "
+            "--output",
+            path.string()));
+    }
+    for (auto const& [name, content] : files) {
+        core::make_folder((folder / name).parent_path());
+        core::replace_file(folder / name, content);
+    }
+}
+
+void make_frame_folder(Deck const& deck, std::filesystem::path const& folder) {
+    if (deck.files.at(drive_file).find(" dump/") != std::string::npos) core::make_folder(folder / "dump");
 }
 
 void write_deck(Deck const& deck, std::filesystem::path const& folder, int ranks) {

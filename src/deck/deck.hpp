@@ -37,6 +37,11 @@ constexpr char const* control_file = "control.in";  ///< File that the deck read
 constexpr char const* control_go_on =
     "variable stop equal 0\n";  ///< Its content when only max_cycles ends the run.
 
+/// Number of phases of a cycle at which the engine averages the layer in bins.
+constexpr int profiles_per_cycle = 10;
+/// A snapshot is taken at every third of these phases, so that each phase is reached once in three cycles.
+constexpr int profile_stride = 3;
+
 /// How one packing of a case is run.
 struct PackingPlan {
     int number;      ///< from 1 to 1000
@@ -91,6 +96,17 @@ std::map<std::string, std::string> read_files(std::filesystem::path const& folde
 /// Writes files into a folder, which is made if necessary.
 /// @throws core::MissingError when the folder or a file cannot be written
 void write_files(std::map<std::string, std::string> const& files, std::filesystem::path const& folder);
+
+/// Writes the files of a case that a person will run by hand. No file is replaced.
+/// @param folder  of the case; it is made
+/// @param files   contents by path below the folder
+/// @throws core::InputError when a file is there already with another content; nothing is written then
+/// @throws core::MissingError when something cannot be written
+void write_case(std::filesystem::path const& folder, std::map<std::string, std::string> const& files);
+
+/// Makes the folder to which the engine writes frames, if the deck asks for them: the engine makes no folder.
+/// @throws core::MissingError when it cannot be made
+void make_frame_folder(Deck const& deck, std::filesystem::path const& folder);
 
 /// Writes the files of a deck into a folder, which is made if necessary.
 /// @throws core::MissingError when the folder or a file cannot be written

@@ -1,11 +1,10 @@
 #include "deck/deck_data.hpp"
 
 #include "deck/atom_types.hpp"
-#include "deck/contact_columns.hpp"
 #include "deck/drive_formula.hpp"
 #include "deck/estimates.hpp"
-#include "deck/moving_meshes.hpp"
 #include "deck/stage_data.hpp"
+#include "deck/trough_mesh.hpp"
 #include "prepare/contact.hpp"
 
 #include <algorithm>
@@ -106,80 +105,6 @@ void describe_inputs(core::TemplateData& data, scenario::Scenario const& s) {
     describe_gravity(data, s);
 }
 
-std::string repeated(int times, double value) {
-    return fmt::format(
-        "{}", fmt::join(std::vector<std::string>(static_cast<std::size_t>(times), text(value)), " "));
-}
-
-/// The materials other than that of [grains], for the head of the decks.
-std::vector<core::TemplateData> describe_materials(prepare::PreparedCase const& n) {
-    std::vector<core::TemplateData> list;
-    for (std::size_t i = 1; i < n.materials.size(); ++i) {
-        scenario::Material const& material = n.materials[i];
-        core::TemplateData entry;
-        entry.set("name", material.name);
-        entry.set("type", std::to_string(atom_type_of(n, static_cast<int>(i))));
-        entry.set("density", text(material.grains.density));
-        entry.set("friction", text(material.grains.friction));
-        entry.set("restitution", text(material.grains.restitution));
-        entry.set("trough_friction", text(material.trough_friction));
-        entry.set("trough_restitution", text(material.trough_restitution));
-        list.push_back(std::move(entry));
-    }
-    return list;
-}
-
-void describe_block_contact(core::TemplateData& data, prepare::PreparedCase const& n, int types) {
-    scenario::Scenario const& s = n.scenario;
-    prepare::BlockContact const contact = prepare::block_contact(s, n.mass, n.spheres_per_grain);
-    data.set("contact_stiffness", rounded(contact.stiffness));
-    data.set("contact_stiffnesses", repeated(types * types, contact.stiffness));
-    data.set("contact_dampings", repeated(types * types, contact.damping));
-}
-
-void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) {
-    scenario::Scenario const& s = n.scenario;
-    bool const block = s.layer.block != scenario::Block::none,
-               rolls = s.grains.rotation == scenario::Rotation::rolling;
-    std::vector<AtomType> const all_types = atom_types(n);
-    int const types = static_cast<int>(all_types.size());
-    std::vector<std::string> type_names;
-    for (int type = 2; type <= types; ++type)
-        type_names.push_back(
-            fmt::format("type {}: {}", type, all_types[static_cast<std::size_t>(type) - 1].name));
-    PairTables const tables = pair_tables(n);
-    std::string const model = block ? "hooke/stiffness tangential no_history"
-                                    : fmt::format("{} tangential history", name_of(s.engine.contact));
-    std::string const attraction = s.engine.cohesion > 0 ? " cohesion sjkr" : "";
-    std::string const options =
-        fmt::format("limitForce {} tangential_damping {}",
-                    s.layer.block == scenario::Block::plate ? "off" : "on", block ? "on" : "off");
-    std::string const wall_model = model + attraction + (rolls ? " rolling_friction epsd2" : "");
-    data.set("block", block);
-    data.set("rolls", rolls);
-    data.set("types", std::to_string(types));
-    data.set("other_types", fmt::format("{}", fmt::join(type_names, ", ")));
-    data.set("materials", describe_materials(n));
-    data.set(std::string(name_of(s.engine.contact)), !block);
-    data.set("coheres", s.engine.cohesion > 0);
-    data.set("cohesion", text(s.engine.cohesion));
-    data.set("cohesions", repeated(types * types, s.engine.cohesion));
-    data.set("wall_model", wall_model);
-    data.set("gate_model", wall_model);
-    data.set("contact_options", options);
-    data.set("contact_model", wall_model + " " + options);
-    data.set("youngs_moduli", repeated(types, s.grains.youngs_modulus.value()));
-    data.set("poisson_ratios", repeated(types, s.grains.poisson_ratio));
-    data.set("soft",
-             !block &&
-                 s.grains.youngs_modulus.value() < 5e6);  // LIGGGHTS then requires the command soft_particles
-    data.set("hard", !block && s.grains.youngs_modulus.value() > 1e9);  // or the command hard_particles
-    data.set("restitutions", tables.restitutions);
-    data.set("frictions", tables.frictions);
-    data.set("rolling_frictions", repeated(types * types, s.grains.rolling_friction));
-    if (block) describe_block_contact(data, n, types);
-}
-
 std::string integrator(scenario::Scenario const& s) {
     if (is_body(s)) return "multisphere allow_group_and_set yes";
     return s.grains.rotation == scenario::Rotation::blocked ? "nve" : "nve/sphere";
@@ -230,6 +155,40 @@ void describe_drive(core::TemplateData& data, prepare::PreparedCase const& n) {
     data.set("impact_speed", fmt::format("{:.3g}", time.impact_speed));
 }
 
+/// What the engine's two computes of contacts are asked for and which of their columns are written: it allows
+/// one for the contacts of grains and one for those with walls, so that frames and the largest overlap of
+/// phases.csv share them.
+void describe_contact_columns(core::TemplateData& data, bool frames) {
+    // In the engine's order: two places (6 columns), numbers (3), normal and tangential force (6), overlap.
+    constexpr int count = 16;
+    constexpr char const* all = "pos id force_normal force_tangential delta";
+    auto const columns_of = [](char const* name) {
+        std::string columns = fmt::format("c_{}[1]", name);
+        for (int column = 2; column <= count; ++column) columns += fmt::format(" c_{}[{}]", name, column);
+        return columns;
+    };
+    data.set("contacts", frames);
+    data.set("overlap_words", frames ? all : "delta");
+    data.set("floor_contact_words", all);
+    data.set("overlap_column", std::to_string(frames ? count : 1));
+    data.set("contact_columns", frames ? columns_of("overlaps") : "");
+    data.set("trough_contact_columns", frames ? columns_of("floor_contacts") : "");
+}
+
+/// How often the layer is sampled within a cycle, and in which bins.
+void describe_phases(core::TemplateData& data, prepare::PreparedCase const& n) {
+    double const length = n.scenario.layer.length, diameter = mean_diameter(n.scenario);
+    int const steps = n.time.steps_per_cycle;
+    // A whole number of columns about 1.5 diameters wide, so that the last one is not narrower. Slightly more
+    // than the exact width, so that rounding does not add a column at the end of the box.
+    double const columns = std::max(1.0, std::round(length / (1.5 * diameter)));
+    data.set("samples_per_cycle", std::to_string(prepare::phases_per_cycle));
+    data.set("sample_steps", std::to_string(steps / prepare::phases_per_cycle));
+    data.set("profile_steps", std::to_string(profile_stride * (steps / profiles_per_cycle)));
+    data.set("profile_bin", text(diameter / 2));
+    data.set("surface_bin", text(length / columns * (1 + 1e-12)));
+}
+
 void describe_output(core::TemplateData& data, scenario::Scenario const& s, prepare::TimeGrid const& time,
                      int packing) {
     bool const frames = writes_frames(s.output, packing);
@@ -260,6 +219,33 @@ void describe_mixture(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("material_groups", std::move(groups));
     data.set("material_columns", columns);
     data.set("material_values", values);
+}
+
+/// The meshes that move with the trough: the parts of its own mesh with a contact of their own, its walls,
+/// and how many meshes there are.
+void describe_moving_meshes(core::TemplateData& data, prepare::PreparedCase const& n) {
+    std::vector<core::TemplateData> parts, walls;
+    auto const add = [](std::vector<core::TemplateData>& list, std::string const& mesh,
+                        std::string const& file, int type) {
+        core::TemplateData one;
+        one.set("mesh", mesh);
+        one.set("part_file", file);
+        one.set("type", std::to_string(type));
+        list.push_back(std::move(one));
+    };
+    for (std::size_t i = 0; i < n.domain.parts.size(); ++i)
+        add(parts, part_mesh(i), part_file(i), atom_type_of_part(n, i));
+    // A back wall without side walls stands between the upright sides of the trough's own mesh.
+    bool const has_side_walls = n.scenario.trough.side_wall_friction.has_value();
+    std::vector<std::string> names;
+    if (has_side_walls) names = {"left", "right"};
+    if (n.domain.open) names.emplace_back("back");
+    for (std::string const& name : names) add(walls, name, name + ".stl", has_side_walls ? 3 : 2);
+    std::size_t const count = 1 + parts.size() + walls.size() + (is_fed_screen(n.scenario) ? 1 : 0);
+    data.set("several_meshes", count > 1);
+    data.set("mesh_count", count > 1 ? std::to_string(count) : std::string());
+    data.set("mesh_parts", std::move(parts));
+    data.set("wall_meshes", std::move(walls));
 }
 
 /// Where the grains are poured, and how long settling may take.
@@ -317,8 +303,8 @@ void describe_gravity(core::TemplateData& data, scenario::Scenario const& s) {
 void describe_settling_gravity(core::TemplateData& data, scenario::Scenario const& s) {
     if (!is_open(s) || s.trough.inclination >= 0) return;
     data.set("gravity", text(scenario::gravity * std::cos(s.trough.inclination)));
-    data.set("gravity_x", std::string("0"));
-    data.set("gravity_z", std::string("-1"));
+    data.set("gravity_x", "0");
+    data.set("gravity_z", "-1");
 }
 
 int seed_number(int index) {
@@ -332,7 +318,7 @@ core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& p
     std::vector<core::TemplateData> classes = describe_classes(n, packing.number);
     data.set("title",
              fmt::format("Vibrotrough: a granular layer on a vibrating trough, campaign {}", s.campaign));
-    data.set("settle_title", std::string("Vibrotrough: a granular layer settles on a trough"));
+    data.set("settle_title", "Vibrotrough: a granular layer settles on a trough");
     data.set("class_count", std::to_string(classes.size()));
     data.set("classes", std::move(classes));
     data.set("packing_number", std::to_string(packing.number));
@@ -347,6 +333,7 @@ core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& p
     describe_packing(data, n);
     describe_drive(data, n);
     describe_output(data, s, n.time, packing.number);
+    describe_phases(data, n);
     describe_mixture(data, n);
     return data;
 }

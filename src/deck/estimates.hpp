@@ -84,10 +84,21 @@ double trusted_half_width(int packings, scenario::MeasurementPlan const& statist
 /// Number of cycles that one packing will take, at most max_cycles.
 double expected_cycles(scenario::Scenario const& scenario, Experience const& experience = {});
 
-/// What one packing costs, in grain-steps of a small layer (prepare::PreparedCase::work), including settling
-/// (five times the time of a free fall; less if another case has settled the same packing). A clump counts
-/// with the number of its spheres.
-double expected_work(prepare::PreparedCase const& prepared, Experience const& experience = {});
+/// The forecast of what a case costs, from which `check`, `plan`, `status` and the progress of a run all make
+/// theirs: in grain-steps of a small layer (prepare::PreparedCase::work). A clump counts with the number of
+/// its spheres.
+/// @param settlings  packings that settle, for five times the time of a free fall; less if another case has
+/// settled the same packing
+/// @param cycles     of all packings together
+double work_of(prepare::PreparedCase const& prepared, double settlings, double cycles);
+
+/// The work of so many packings that are not begun, each of expected_cycles().
+double expected_work(prepare::PreparedCase const& prepared, double packings,
+                     Experience const& experience = {});
+
+/// Grain-steps of a small layer per second and core, where nothing was measured yet: Debian's LIGGGHTS 3.8.0
+/// with 600 to 5000 grains.
+constexpr double usual_speed = 5e6;
 
 /// Number of bytes of all files of a case with so many packings of so many cycles. The lengths of the rows
 /// and of what is written once are means of real runs with 60 to 2000 grains; the estimate is within a factor

@@ -2,7 +2,6 @@
 
 #include "deck/deck_data.hpp"
 #include "deck/estimates.hpp"
-#include "deck/findings.hpp"
 #include "scenario/model/stage_motion.hpp"
 
 #include <algorithm>

@@ -29,13 +29,9 @@ core::TemplateTexts texts_with(scenario::DeckTemplates const& replaced) {
 
 }  // namespace
 
-std::string render_template(std::string_view name, core::TemplateData const& data) {
-    return core::render(input_templates, name, data);
-}
-
 std::string render_template(std::string_view name, core::TemplateData const& data,
                             scenario::DeckTemplates const* replaced) {
-    if (replaced == nullptr) return render_template(name, data);
+    if (replaced == nullptr) return core::render(input_templates, name, data);
     try {
         return core::render(texts_with(*replaced), name, data);
     } catch (std::logic_error const& error) {  // malformed, or a part that does not exist
@@ -46,19 +42,19 @@ std::string render_template(std::string_view name, core::TemplateData const& dat
 
 std::string const& digest_of_templates() {
     static std::string const digest = [] {
-        core::Sha256 all;
+        std::vector<std::string_view> all;
         for (auto const& [name, text] : input_templates) {
             if (name.starts_with("probes/")) continue;
-            all.add(name);
+            all.push_back(name);
             // Comments and blank lines change no deck.
             for (std::size_t start = 0; start < text.size();) {
                 std::size_t const end = std::min(text.find('\n', start), text.size() - 1) + 1;
                 std::string_view const line = std::string_view(text).substr(start, end - start);
-                if (line != "\n" && !line.starts_with('#')) all.add(line);
+                if (line != "\n" && !line.starts_with('#')) all.push_back(line);
                 start = end;
             }
         }
-        return all.hex();
+        return core::sha256_hex(all);
     }();
     return digest;
 }

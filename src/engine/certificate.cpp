@@ -24,8 +24,6 @@ namespace fs = std::filesystem;
 namespace note = core::note;
 using note::Json;
 
-constexpr char const* format_name = "vibrotrough engine certificate";
-
 /// The libliggghts that the dynamic linker would load for the program; empty for a script or a program that
 /// does not link one.
 std::string linked_library(fs::path const& program) {
@@ -49,6 +47,10 @@ std::string linked_library(fs::path const& program) {
     }
 }
 
+char const* verdict(bool passed) {
+    return passed ? "passed" : "failed";
+}
+
 std::optional<fs::path> certificate_file(EngineIdentity const& identity) {
     auto const folder = certificate_folder();
     if (!folder) return {};
@@ -56,26 +58,9 @@ std::optional<fs::path> certificate_file(EngineIdentity const& identity) {
 }
 
 Json describe(ProbeResult const& probe) {
-    return {{"name", probe.name},
-            {"question", probe.question},
-            {"expected", probe.expected},
-            {"comparison", probe.comparison == Comparison::near ? "near" : "at most"},
-            {"source", probe.source},
-            {"measured", std::isfinite(probe.measured) ? Json(probe.measured) : Json(nullptr)},
-            {"tolerance", probe.tolerance},
-            {"tolerance_reason", probe.tolerance_reason},
-            {"problem", probe.problem},
-            {"verdict", probe.passed() ? "passed" : "failed"}};
-}
-
-Json describe(EngineIdentity const& engine) {
-    return {{"program", core::harmless(engine.program)},
-            {"program_sha256", engine.program_sha256},
-            {"library", core::harmless(engine.library)},
-            {"library_sha256", engine.library_sha256},
-            {"version", engine.version},
-            {"probes_sha256", engine.probes_sha256},
-            {"key", engine.key()}};
+    return {{"name", probe.name},           {"question", probe.question},
+            {"expected", probe.expected},   {"measured", probe.measured},
+            {"tolerance", probe.tolerance}, {"verdict", verdict(probe.passed())}};
 }
 
 }  // namespace
@@ -84,25 +69,25 @@ std::string EngineIdentity::key() const {
     return core::sha256_hex(program_sha256 + "\n" + library_sha256 + "\n" + version + "\n" + probes_sha256);
 }
 
-std::string EngineIdentity::binary_sha256() const {
-    return core::sha256_hex(program_sha256 + "\n" + library_sha256);
-}
-
-EngineIdentity identify(Engine const& engine) {
+EngineIdentity identify(Engine& engine) {
     EngineIdentity identity{};
+    auto const digest_of = [&](fs::path const& path) {
+        engine.files.push_back(stamp_of(path));  // before it is read
+        return core::sha256_hex(core::read_file(path));
+    };
+    engine.files.clear();
     identity.program = engine.program.string();
-    identity.program_sha256 = core::sha256_hex(core::read_file(engine.program));
+    identity.program_sha256 = digest_of(engine.program);
     identity.library = linked_library(engine.program);
-    if (!identity.library.empty())
-        identity.library_sha256 = core::sha256_hex(core::read_file(identity.library));
+    if (!identity.library.empty()) identity.library_sha256 = digest_of(identity.library);
     identity.version = engine.version;
     identity.probes_sha256 = digest_of_probes();
+    engine.binary_sha256 = core::sha256_hex(identity.program_sha256 + "\n" + identity.library_sha256);
     return identity;
 }
 
 bool ProbeResult::passed() const {
-    double const excess = measured - expected;  // comparisons with NaN are false
-    return problem.empty() && (comparison == Comparison::near ? std::abs(excess) : excess) <= tolerance;
+    return std::abs(measured - expected) <= tolerance;  // comparisons with NaN are false
 }
 
 bool Certificate::passed() const {
@@ -112,14 +97,23 @@ bool Certificate::passed() const {
 std::string to_json(Certificate const& certificate) {
     Json probes = Json::array();
     for (ProbeResult const& probe : certificate.probes) probes.push_back(describe(probe));
-    Json const json{{"format", format_name},
-                    {"verdict", certificate.passed() ? "passed" : "failed"},
-                    {"engine", describe(certificate.engine)},
+    EngineIdentity const& engine = certificate.engine;
+    Json const json{{"format", "vibrotrough engine certificate"},
+                    {"verdict", verdict(certificate.passed())},
+                    {"engine",
+                     {{"program", core::harmless(engine.program)},
+                      {"program_sha256", engine.program_sha256},
+                      {"library", core::harmless(engine.library)},
+                      {"library_sha256", engine.library_sha256},
+                      {"version", engine.version},
+                      {"probes_sha256", engine.probes_sha256},
+                      {"key", engine.key()}}},
                     {"program_version", core::program_version()},
                     {"git_commit", core::program_commit()},
                     {"host", core::host_name()},
                     {"probed", certificate.probed},
-                    {"probes", probes}};
+                    {"probes", probes},
+                    {"problem", certificate.problem}};
     return json.dump(2) + "\n";
 }
 
@@ -142,9 +136,8 @@ std::optional<std::string> find_certificate(EngineIdentity const& identity) {
         if (note::text(json, "verdict") == "passed" &&
             note::text(note::object(json, "engine"), "key") == identity.key())
             return text;
-    } catch (core::MissingError const&) {
-        // treat an unreadable certificate like a missing one
-    } catch (note::Fault const&) {
+    } catch (core::Error const&) {
+        // An unreadable or damaged one counts as none.
     }
     return {};
 }

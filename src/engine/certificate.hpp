@@ -21,31 +21,20 @@ struct EngineIdentity {
 
     /// SHA-256 over all members except the paths; it is the name of the certificate.
     std::string key() const;
-    /// SHA-256 over the digests of the two files: of the binary alone.
-    std::string binary_sha256() const;
 };
 
-/// Reads the engine's files and determines the identity of the binary.
+/// Reads the engine's files and determines the identity of the binary. Notes the digest of the binary, and
+/// what its files are like, in `engine`.
 /// @throws MissingError when the program cannot be read
-EngineIdentity identify(Engine const& engine);
+EngineIdentity identify(Engine& engine);
 
-/// How a measured value is compared with the expected one.
-enum class Comparison {
-    near,     ///< |measured - expected| <= tolerance
-    at_most,  ///< measured <= expected + tolerance
-};
-
-/// One question to the engine, with the expected and the measured value, both pure numbers.
+/// A pure number that was measured, and what it should be.
 struct ProbeResult {
-    std::string name;              ///< e.g. "restitution-0.5"
-    std::string question;          ///< one sentence
-    std::string source;            ///< formula or reference of `expected`
-    Comparison comparison;         ///< how `measured` is judged
-    double expected;               ///< by the source
-    double tolerance;              ///< largest difference that passes
-    std::string tolerance_reason;  ///< why the tolerance is as large as it is
-    double measured = 0;           ///< no number if `problem` says why there is none
-    std::string problem = {};      ///< why there is no answer; empty when there is one
+    std::string name;      ///< e.g. "restitution-0.5"
+    std::string question;  ///< one sentence
+    double expected;       ///< by the contact law
+    double measured;       ///< of the engine
+    double tolerance;      ///< largest difference that passes
 
     /// The measured value is within the tolerance.
     bool passed() const;
@@ -56,6 +45,7 @@ struct Certificate {
     EngineIdentity engine;            ///< the binary that was probed
     std::string probed;               ///< ISO 8601, UTC
     std::vector<ProbeResult> probes;  ///< in the order in which they are reported
+    std::string problem = {};         ///< why there are none; empty when there are
 
     bool passed() const;  ///< whether there are probes and all of them passed
 };

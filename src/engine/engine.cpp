@@ -4,7 +4,6 @@
 #include "core/limits.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/text.hpp"
-#include "engine/binary_watch.hpp"
 #include "engine/sole_writer.hpp"
 
 #include <array>
@@ -12,8 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
+#include <ctime>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -142,7 +140,9 @@ std::vector<std::string> run_words(Engine const& engine, Launch const& launch,
             words.push_back(word);
         }
     }
-    for (char const* word : {"stdbuf", "-oL"}) words.push_back(word);
+    // The ranks die with mpirun, which dies with the driver: they close the lock of the folder.
+    if (engine.ranks > 1) words.insert(words.end(), {"setpriv", "--pdeathsig", "KILL"});
+    words.insert(words.end(), {"stdbuf", "-oL"});
     words.push_back(engine.program.string());
     for (std::string const& word : {std::string("-in"), launch.input}) words.push_back(word);
     words.insert(words.end(), launch.arguments.begin(), launch.arguments.end());
@@ -178,16 +178,10 @@ double time_of_ended_processes() {
 
 /// s, processor time of a process that runs; 0 when it does not.
 double time_of_process(pid_t process) {
-    std::ifstream file(fmt::format("/proc/{}/stat", process));
-    std::string const line{std::istreambuf_iterator<char>(file), {}};
-    std::size_t const name_end = line.rfind(')');  // the name may contain anything
-    if (name_end == std::string::npos) return 0;
-    std::istringstream fields(line.substr(name_end + 1));
-    std::string skipped;
-    for (int field = 3; field < 14; ++field) fields >> skipped;
-    double user = 0, system = 0;
-    fields >> user >> system;
-    return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+    clockid_t clock = 0;
+    timespec time{};
+    if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 /// Waits, for 2 s at most, until a killed process has ended, and leaves its status to whoever asks for it.
@@ -202,6 +196,26 @@ void await_end(pid_t process) {
 }
 
 }  // namespace
+
+EngineFile stamp_of(fs::path const& path) {
+    std::error_code failure;
+    EngineFile file{path, fs::last_write_time(path, failure), 0};
+    if (!failure) file.size = fs::file_size(path, failure);
+    if (!failure) return file;
+    throw core::MissingError(fmt::format(
+        "the engine {} is gone; put it back, or name another with --liggghts PATH", path.string()));
+}
+
+void require_unchanged(Engine const& engine) {
+    for (EngineFile const& file : engine.files) {
+        EngineFile const now = stamp_of(file.path);
+        if (now.time == file.time && now.size == file.size) continue;
+        throw core::MissingError(
+            fmt::format("the engine's file {} was replaced after this run had begun; what it has computed "
+                        "since is not used. Run the same command again, which tests the new engine",
+                        file.path.string()));
+    }
+}
 
 Engine find_engine(std::optional<fs::path> const& requested) {
     fs::path const program = search_program(requested);
@@ -244,7 +258,7 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
                               nullptr)(decode(state->process.native_exit_code(), state->core_time));
         });
     };
-    if (engine.watch) engine.watch->check();
+    require_unchanged(engine);
     WriterLock const lock(folder);
     auto const output = open_output(folder);
     try {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -11,7 +12,15 @@
 
 namespace vibrotrough::engine {
 
-class BinaryWatch;
+/// A file of an engine as it was when its digest was taken.
+struct EngineFile {
+    std::filesystem::path path;            ///< of the program, or of the library that it links
+    std::filesystem::file_time_type time;  ///< of the last change
+    std::uintmax_t size;                   ///< bytes
+};
+
+/// How a file is now. @throws MissingError when it is gone
+EngineFile stamp_of(std::filesystem::path const& path);
 
 /// A LIGGGHTS program that has reported its version.
 struct Engine {
@@ -21,9 +30,13 @@ struct Engine {
     int ranks = 1;                   ///< number of MPI processes of each run
     std::string certificate = {};    ///< JSON of the binary's Certificate; empty if it was not probed
     std::string binary_sha256 = {};  ///< of the program's file and its library; empty if they were not read
-    /// Notices when the binary is replaced; none for an engine whose files were not read.
-    std::shared_ptr<BinaryWatch const> watch = {};
+    std::vector<EngineFile> files = {};  ///< that were read for it
 };
+
+/// Notices when the files of an engine are replaced, for example by an upgrade in the night: what another
+/// binary computes does not belong to the certificate and the version that a campaign was begun with.
+/// @throws MissingError when a file is not what it was
+void require_unchanged(Engine const& engine);
 
 /// Finds the engine, which is `requested` if given and otherwise `liggghts` on the PATH, and reads its
 /// version.
@@ -57,7 +70,7 @@ class EngineProcess {
     /// once, from `context`, by the thread that runs it. That thread must be the one that constructs this
     /// object, and it must outlive the engine.
     /// @throws MissingError when the process cannot be started, the binary is not what it was
-    /// (Engine::watch), or another engine still writes in the folder
+    /// (require_unchanged), or another engine still writes in the folder
     EngineProcess(boost::asio::io_context& context, Engine const& engine, std::filesystem::path const& folder,
                   std::function<void(ExitStatus)> on_exit, Launch const& launch = {});
     ~EngineProcess();

@@ -7,11 +7,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <csignal>
 #include <cstring>
 #include <optional>
-#include <regex>
 #include <sstream>
 #include <string_view>
 
@@ -74,23 +72,6 @@ core::Outcome outcome_of_error(std::string const& message) {
     return core::Outcome::engine_error;
 }
 
-/// The engine prints all digits of its numbers.
-std::string with_short_numbers(std::string const& text) {
-    static std::regex const long_number(R"(\d+[.]\d{4,}(e[-+]?\d+)?)");
-    std::string told;
-    std::size_t begin = 0;
-    for (std::sregex_iterator one(text.begin(), text.end(), long_number); one != std::sregex_iterator();
-         ++one) {
-        auto const at = static_cast<std::size_t>(one->position());
-        std::string const digits = one->str();
-        double value = 0;
-        std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        told += text.substr(begin, at - begin) + fmt::format("{:.3g}", value);
-        begin = at + digits.size();
-    }
-    return told + text.substr(begin);
-}
-
 /// What the deck says after its failure marker: " <name>: <message>".
 RunReport named_failure(std::string const& text) {
     std::string const named = text.substr(std::min(text.find_first_not_of(' '), text.size()));
@@ -98,7 +79,7 @@ RunReport named_failure(std::string const& text) {
     for (core::Outcome const outcome :
          {core::Outcome::insertion_incomplete, core::Outcome::not_settled, core::Outcome::overfull}) {
         std::string const prefix = std::string(name_of(outcome)) + ": ";
-        if (named.starts_with(prefix)) return {outcome, with_short_numbers(named.substr(prefix.size()))};
+        if (named.starts_with(prefix)) return {outcome, named.substr(prefix.size())};
     }
     return {core::Outcome::engine_error, named};
 }

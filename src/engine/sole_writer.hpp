@@ -13,9 +13,9 @@ namespace vibrotrough::engine {
 constexpr char const* writer_file = ".engine";
 
 /// Makes sure that no engine of an earlier run still writes in the folder. A driver that was killed may have
-/// left one behind: its engine dies with it, but not what a wrapper script or mpirun had started. Such
-/// processes are killed when they belong to this machine and work in the folder, and waited for.
-/// @throws MissingError when somebody still writes in the folder after ten seconds
+/// left one behind: its engine dies with it, but not what a wrapper script had started. Such processes are
+/// killed when they belong to this machine and work in the folder, and waited for.
+/// @throws MissingError when the lock is still held after ten seconds
 void make_sole_writer(std::filesystem::path const& folder);
 
 /// Whether an engine, or something that it started, holds the lock of the folder now.

@@ -12,4 +12,22 @@ void add_stop_signals(boost::asio::signal_set& signals) {
     }
 }
 
+StopSignals::StopSignals() {
+    add_stop_signals(signals_);
+    wait();
+}
+
+int StopSignals::count() {
+    context_.poll();
+    return count_;
+}
+
+void StopSignals::wait() {
+    signals_.async_wait([this](auto const& cancelled, int) {
+        if (cancelled) return;
+        ++count_;
+        wait();
+    });
+}
+
 }  // namespace vibrotrough::engine

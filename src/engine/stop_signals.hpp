@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
 
 namespace vibrotrough::engine {
@@ -8,5 +9,20 @@ namespace vibrotrough::engine {
 /// the program started stays ignored: with nohup a user asks for that, and a shell does it for programs in
 /// the background.
 void add_stop_signals(boost::asio::signal_set& signals);
+
+/// Notices these signals, which then no longer end the process.
+class StopSignals {
+  public:
+    StopSignals();  ///< From now on.
+    /// How many have come so far.
+    int count();
+
+  private:
+    void wait();
+
+    boost::asio::io_context context_;
+    boost::asio::signal_set signals_{context_};
+    int count_ = 0;
+};
 
 }  // namespace vibrotrough::engine

@@ -1,7 +1,7 @@
 #include "evaluate/layer.hpp"
 
 #include "core/error.hpp"
-#include "deck/phases.hpp"
+#include "deck/deck.hpp"
 #include "measure/granular_temperature.hpp"
 #include "measure/landing.hpp"
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <numbers>
 #include <utility>
 
@@ -97,49 +99,34 @@ Clump scaled_clump(std::vector<scenario::Sphere> spheres, Moments const& m, doub
     return clump;
 }
 
-}  // namespace
-
-/// Moments by the address of the shape's spheres, which does not change while a case uses them; clumps by
-/// shape and diameter.
-struct ClumpMaker::Cache {
-    struct Shape {
-        std::shared_ptr<scenario::ShapeFile const>
-            file;  ///< keeps the spheres alive; nullptr for built-in shapes
-        Moments moments;
-    };
-    std::map<std::vector<scenario::Sphere> const*, Shape> shapes;
-    std::map<std::pair<std::vector<scenario::Sphere> const*, double>, std::shared_ptr<Clump const>> clumps;
-    std::map<double, std::shared_ptr<Clump const>> plates;
-};
-
-ClumpMaker::ClumpMaker() : cache_(std::make_unique<Cache>()) {}
-ClumpMaker::~ClumpMaker() = default;
-ClumpMaker::ClumpMaker(ClumpMaker&&) noexcept = default;
-ClumpMaker& ClumpMaker::operator=(ClumpMaker&&) noexcept = default;
-
-std::shared_ptr<Clump const> ClumpMaker::clump(scenario::Grains const& grains) {
-    std::vector<scenario::Sphere> const& spheres = shape_spheres(grains);
-    auto& made = cache_->clumps[{&spheres, grains.diameter}];
-    if (made) return made;
-    auto shape = cache_->shapes.find(&spheres);
-    if (shape == cache_->shapes.end())
-        shape = cache_->shapes.emplace(&spheres, Cache::Shape{grains.shape_file, integrate(spheres)}).first;
-    double const volume = std::numbers::pi / 6 * std::pow(grains.diameter, 3);
-    made = std::make_shared<Clump const>(scaled_clump(spheres, shape->second.moments, volume));
-    return made;
+/// Integrating a shape costs some ten milliseconds: the cases of a campaign share its integrals.
+Moments moments_of(std::vector<scenario::Sphere> const& spheres) {
+    static std::mutex mutex;
+    static std::map<std::vector<double>, Moments> known;
+    std::vector<double> key;
+    for (scenario::Sphere const& s : spheres) key.insert(key.end(), {s.x, s.y, s.z, s.radius});
+    std::lock_guard const lock(mutex);
+    auto const [found, is_new] = known.try_emplace(std::move(key));
+    if (is_new) found->second = integrate(spheres);
+    return found->second;
 }
 
-std::shared_ptr<Clump const> ClumpMaker::plate(double diameter) {
-    auto& made = cache_->plates[diameter];
-    if (made) return made;
+}  // namespace
+
+std::shared_ptr<Clump const> make_clump(scenario::Grains const& grains) {
+    std::vector<scenario::Sphere> const& spheres = shape_spheres(grains);
+    double const volume = std::numbers::pi / 6 * std::pow(grains.diameter, 3);
+    return std::make_shared<Clump const>(scaled_clump(spheres, moments_of(spheres), volume));
+}
+
+std::shared_ptr<Clump const> make_plate(double diameter) {
     std::vector<scenario::Sphere> spheres;
     for (int i = -1; i <= 1; ++i) {
         for (int j = -1; j <= 1; ++j)
             spheres.push_back({2 * i * diameter, 2 * j * diameter, 0, diameter / 2});
     }
     double const volume = 9 * std::numbers::pi / 6 * std::pow(diameter, 3);
-    made = std::make_shared<Clump const>(scaled_clump(spheres, integrate(spheres), volume));
-    return made;
+    return std::make_shared<Clump const>(scaled_clump(spheres, moments_of(spheres), volume));
 }
 
 }  // namespace vibrotrough::prepare

@@ -3,10 +3,7 @@
 #include "scenario/model/grains.hpp"
 
 #include <array>
-#include <map>
 #include <memory>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace vibrotrough::prepare {
@@ -21,26 +18,12 @@ struct Clump {
     double smallest_radius;  ///< m, radius of the smallest of its spheres
 };
 
-/// Makes clumps. Integrating the volume of a shape costs some ten milliseconds, so each shape is integrated
-/// once, and cases with the same shape and diameter share one clump. Not for use by several threads at once.
-class ClumpMaker {
-  public:
-    ClumpMaker();  ///< Without any shape.
-    ~ClumpMaker();
-    ClumpMaker(ClumpMaker&&) noexcept;             ///< Takes over the shapes that were integrated.
-    ClumpMaker& operator=(ClumpMaker&&) noexcept;  ///< Takes over the shapes that were integrated.
+/// The clump of the grains' shape that has the volume of a sphere of the grains' diameter. Volume and inertia
+/// are integrated over a grid of 400 x 400 lines parallel to x, exactly along each line. The error is 1e-4
+/// for the built-in shapes.
+std::shared_ptr<Clump const> make_clump(scenario::Grains const& grains);
 
-    /// The clump of the grains' shape that has the volume of a sphere of the grains' diameter. Volume and
-    /// inertia are integrated over a grid of 400 x 400 lines parallel to x, exactly along each line. The
-    /// error is 1e-4 for the built-in shapes.
-    std::shared_ptr<Clump const> clump(scenario::Grains const& grains);
-
-    /// A plate of three by three spheres of this diameter (m), whose centres are two diameters apart.
-    std::shared_ptr<Clump const> plate(double diameter);
-
-  private:
-    struct Cache;
-    std::unique_ptr<Cache> cache_;
-};
+/// A plate of three by three spheres of this diameter (m), whose centres are two diameters apart.
+std::shared_ptr<Clump const> make_plate(double diameter);
 
 }  // namespace vibrotrough::prepare

@@ -3,8 +3,8 @@
 #include "prepare/contact.hpp"
 #include "scenario/reader/keys.hpp"
 
+#include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -19,20 +19,16 @@ struct SettingNames {
     std::string_view name, title, key;
 };
 
-SettingNames names_of(NumericalSetting setting) {
-    switch (setting) {
-        case NumericalSetting::youngs_modulus:
-            return {"youngs_modulus", "Young's modulus", "grains.youngs_modulus"};
-        case NumericalSetting::time_step:
-            return {"time_step", "time step", "solver.rayleigh_fraction"};
-        case NumericalSetting::length:
-            return {"length", "length of the box", "layer.length"};
-        case NumericalSetting::width:
-            return {"width", "width of the box", "layer.width"};
-        case NumericalSetting::block_stiffness:
-            return {"block_stiffness", "stiffness of the block", "solver.block_stiffness"};
-    }
-    throw std::invalid_argument("no such numerical setting");
+/// In the order of the enumeration.
+constexpr std::array<SettingNames, 5> all_names{
+    {{"youngs_modulus", "Young's modulus", "grains.youngs_modulus"},
+     {"time_step", "time step", "solver.rayleigh_fraction"},
+     {"length", "length of the box", "layer.length"},
+     {"width", "width of the box", "layer.width"},
+     {"block_stiffness", "stiffness of the block", "solver.block_stiffness"}}};
+
+SettingNames const& names_of(NumericalSetting setting) {
+    return all_names.at(static_cast<std::size_t>(setting));
 }
 
 scenario::Key const& row_of(NumericalSetting setting) {

@@ -109,15 +109,15 @@ double modulus_for(PreparedCase const& c, double error) {
     return modulus;
 }
 
-void prepare_grains(PreparedCase& c, ClumpMaker& clumps) {
+void prepare_grains(PreparedCase& c) {
     scenario::Scenario const& s = c.scenario;
     c.materials = materials(s);
     bool const is_fed_mixture = is_open(s) && c.materials.size() > 1;
     c.classes = count_classes(c.materials, s.layer.grains, is_fed_screen(s) || is_fed_mixture);
     for (ClassCount& size : c.classes)
         if (!is_fed_mixture) size.share = size.count;
-    if (s.layer.block == scenario::Block::plate) c.clump = clumps.plate(s.grains.diameter);
-    if (is_clump(s.grains)) c.clump = clumps.clump(s.grains);
+    if (s.layer.block == scenario::Block::plate) c.clump = make_plate(s.grains.diameter);
+    if (is_clump(s.grains)) c.clump = make_clump(s.grains);
     c.spheres_per_grain = c.clump ? static_cast<int>(c.clump->spheres.size()) : 1;
     double one_of_each = 0;
     for (ClassCount const& size : c.classes) {
@@ -221,12 +221,12 @@ double relative_step_cost(double spheres) {
     return 1 + most / (1 + std::pow(half_way / spheres, steepness));
 }
 
-PreparedCase CasePreparer::prepare(scenario::Scenario const& scenario) {
+PreparedCase prepare_case(scenario::Scenario const& scenario) {
     PreparedCase prepared{};
     prepared.scenario = scenario;
     prepare_drive(prepared);
     prepared.domain = domain_of(scenario);
-    prepare_grains(prepared, clumps_);
+    prepare_grains(prepared);
     prepare_modulus(prepared);
     prepare_filling(prepared);
     prepare_time(prepared);
@@ -246,10 +246,6 @@ PreparedCase of_stage(PreparedCase const& prepared, scenario::Stage const& stage
     one.numerics = numerical_errors(one.scenario);
     one.point_mass = point_mass_inputs(one.scenario, one.motion, one.layer_height);
     return one;
-}
-
-PreparedCase prepare_case(scenario::Scenario const& scenario) {
-    return CasePreparer().prepare(scenario);
 }
 
 }  // namespace vibrotrough::prepare

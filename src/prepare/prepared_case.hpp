@@ -88,23 +88,12 @@ struct PreparedCase {
 /// (tests/bench/README.md). Between two days, and so between machines, it was off by a factor of up to 1.4.
 double relative_step_cost(double spheres);
 
-/// Prepares the cases of a campaign. What cases have in common (the integrated shape of clumps) is kept from
-/// one case to the next. Not for use by several threads at once.
-class CasePreparer {
-  public:
-    /// Works out everything that follows from a scenario.
-    /// @throws core::InputError when a cycle would take more than 1e8 time steps
-    PreparedCase prepare(scenario::Scenario const& scenario);
-
-  private:
-    ClumpMaker clumps_;
-};
+/// Works out everything that follows from a scenario.
+/// @throws core::InputError when a cycle would take more than 1e8 time steps
+PreparedCase prepare_case(scenario::Scenario const& scenario);
 
 /// A stage of a case as a case of its own, whose drive has no end: for the checks and theories of a steady
 /// drive. @pre the trough moves in this stage
 PreparedCase of_stage(PreparedCase const& prepared, scenario::Stage const& stage);
-
-/// Prepares a single case. @throws core::InputError as CasePreparer::prepare
-PreparedCase prepare_case(scenario::Scenario const& scenario);
 
 }  // namespace vibrotrough::prepare

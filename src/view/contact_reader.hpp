@@ -1,9 +1,8 @@
 #pragma once
 
-#include "view/dump_reader.hpp"
-
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace vibrotrough::view {
@@ -28,10 +27,10 @@ struct ContactFrame {
 /// Reads contacts.STEP.dump and trough_contacts.STEP.dump of a folder.
 /// @param box  m, lower and upper bounds of x, y and z, from the grains' frame; x is periodic, and so is y
 ///             unless grains at its ends never touch each other
-/// @returns unfinished when a file is missing or incomplete, as while the engine is writing it
+/// @returns nothing when a file is missing or incomplete, as while the engine is writing it
 /// @throws InputError naming file and line when a file is not what the deck's dumps write
-DumpState read_contacts(std::filesystem::path const& folder, long step, std::array<double, 6> const& box,
-                        ContactFrame& frame);
+std::optional<ContactFrame> read_contacts(std::filesystem::path const& folder, long step,
+                                          std::array<double, 6> const& box);
 
 /// Whether the folder has contacts of any frame.
 bool has_contacts(std::filesystem::path const& folder);

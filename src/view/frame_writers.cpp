@@ -20,13 +20,6 @@
 namespace vibrotrough::view {
 namespace {
 
-void set_number(vtkPolyData& data, char const* name, double number) {
-    vtkNew<vtkDoubleArray> value;
-    value->SetName(name);
-    value->InsertNextValue(number);
-    data.GetFieldData()->AddArray(value);
-}
-
 /// A VTK array that refers to the values without owning them.
 template <typename Array, typename Value>
 vtkSmartPointer<Array> view_of(std::vector<Value>& values, char const* name, int components) {
@@ -90,6 +83,13 @@ vtkSmartPointer<vtkPolyData> joined(vtkPolyData& one, vtkPolyData& other) {
 }
 
 }  // namespace
+
+void set_number(vtkPolyData& data, char const* name, double number) {
+    vtkNew<vtkDoubleArray> value;
+    value->SetName(name);
+    value->InsertNextValue(number);
+    data.GetFieldData()->AddArray(value);
+}
 
 void set_time(vtkPolyData& data, FrameSource const& source, double time) {
     // Frames are at whole steps: if rounding puts a frame just before the end of a cycle, it belongs to the

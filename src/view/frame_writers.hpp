@@ -17,6 +17,9 @@
 /// Writers for the objects of a frame as .vtp files.
 namespace vibrotrough::view {
 
+/// Adds a number as field data.
+void set_number(vtkPolyData& data, char const* name, double number);
+
 /// Adds TimeValue (s), cycle (whole cycles since t = 0) and vibration_phase (deg, 0 to 360) as field data; of
 /// a drive with stages also stage (from 1).
 void set_time(vtkPolyData& data, FrameSource const& source, double time);

@@ -139,29 +139,17 @@ class FrameExport {
         files_.emplace_back(time, name);
         if (!contacts_) return;
         // Older frames of a run may have none, and those of the last frame may be incomplete.
-        auto const state = read_contacts(source_.folder, frame.step, frame.box, contact_frame_);
-        if (state == DumpState::unfinished) return;
-        write_contacts(target_ / "contacts" / name, source_, contact_frame_, time);
+        auto contacts = read_contacts(source_.folder, frame.step, frame.box);
+        if (!contacts) return;
+        write_contacts(target_ / "contacts" / name, source_, *contacts, time);
         contacts_->emplace_back(time, name);
     }
 
     void write_collections() const {
-        for (std::string const object : objects) {
-            std::vector<CollectionEntry> entries;
-            if (object != "point_mass" || point_mass_) {
-                for (auto const& [time, name] : files_) entries.push_back({time, object + "/" + name});
-            }
-            write_collection(target_ / (object + ".pvd"), entries);
-        }
-        if (walls_) {
-            std::vector<CollectionEntry> entries;
-            for (auto const& [time, name] : files_) entries.push_back({time, "walls/" + name});
-            write_collection(target_ / "walls.pvd", entries);
-        }
-        if (!contacts_) return;
-        std::vector<CollectionEntry> entries;
-        for (auto const& [time, name] : *contacts_) entries.push_back({time, "contacts/" + name});
-        write_collection(target_ / "contacts.pvd", entries);
+        for (std::string const object : objects)
+            write_files(object, object != "point_mass" || point_mass_ ? files_ : Files{});
+        if (walls_) write_files("walls", files_);
+        if (contacts_) write_files("contacts", *contacts_);
     }
     bool with_contacts() const { return contacts_.has_value(); }
 
@@ -169,6 +157,14 @@ class FrameExport {
     GrainWriter const& grains() const { return grains_; }
 
   private:
+    using Files = std::vector<std::pair<double, std::string>>;
+
+    void write_files(std::string const& object, Files const& files) const {
+        std::vector<CollectionEntry> entries;
+        for (auto const& [time, name] : files) entries.push_back({time, object + "/" + name});
+        write_collection(target_ / (object + ".pvd"), entries);
+    }
+
     static constexpr std::array objects{"grains", "trough", "profile", "point_mass"};
 
     FrameSource const& source_;
@@ -178,9 +174,8 @@ class FrameExport {
     PointMassBlock block_;
     std::optional<PointMassMotion> point_mass_;
     std::optional<TroughWriter> walls_;
-    std::vector<std::pair<double, std::string>> files_;
-    std::optional<std::vector<std::pair<double, std::string>>> contacts_;
-    ContactFrame contact_frame_;
+    Files files_;
+    std::optional<Files> contacts_;
 };
 
 }  // namespace
@@ -200,22 +195,21 @@ ExportedFrames export_frames(FrameSource const& source, fs::path const& target,
                             .scene = write_scene(source, {}, {}, target)};
     frames.write_collections();
 
-    DumpReader reader;
-    GrainFrame frame;
     auto written = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < dumps.size(); ++i) {
-        if (reader.read(dumps[i].path, frame) == DumpState::unfinished) {
+        auto frame = read_grains(dumps[i].path);
+        if (!frame) {
             if (i + 1 == dumps.size()) break;
             throw core::InputError(fmt::format(
                 "{} ends early although there are later frames (the file is damaged); run the case again",
                 dumps[i].path.string()));
         }
-        if (frame.step != dumps[i].step) {
+        if (frame->step != dumps[i].step) {
             throw core::InputError(fmt::format(
                 "{}:2: the frame is at step {}, which contradicts the name of the file; run the case again",
-                dumps[i].path.string(), frame.step));
+                dumps[i].path.string(), frame->step));
         }
-        frames.write(frame, positions[i]);
+        frames.write(*frame, positions[i]);
         if (auto const now = std::chrono::steady_clock::now(); now - written > std::chrono::seconds(1)) {
             frames.write_collections();
             if (progressed) progressed(frames.frames(), static_cast<int>(dumps.size()));

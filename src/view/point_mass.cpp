@@ -1,6 +1,7 @@
 #include "view/point_mass.hpp"
 
 #include "theory/quantities.hpp"
+#include "view/frame_writers.hpp"
 #include "view/trough_motion.hpp"
 
 #include <cmath>
@@ -8,7 +9,6 @@
 
 #include <fmt/format.h>
 #include <vtkCellArray.h>
-#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkPointData.h>
@@ -38,13 +38,6 @@ void add_text(vtkPolyData& data, char const* name, std::string const& text) {
     vtkNew<vtkStringArray> array;
     array->SetName(name);
     array->InsertNextValue(text);
-    data.GetFieldData()->AddArray(array);
-}
-
-void add_number(vtkPolyData& data, char const* name, double value) {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(name);
-    array->InsertNextValue(value);
     data.GetFieldData()->AddArray(array);
 }
 
@@ -118,8 +111,8 @@ vtkSmartPointer<vtkPolyData> PointMassBlock::at(PointMassState const& state, dou
     add_values(*block, "velocity_from_mean", state.velocity[0] - layer_vx);
     add_text(*block, "phase_of_motion", theory::to_string(state.phase));
     add_text(*block, "motion", std::string(in_words(state.phase)));
-    add_number(*block, "gap", state.gap);
-    add_number(*block, "displacement", state.x);
+    set_number(*block, "gap", state.gap);
+    set_number(*block, "displacement", state.x);
     return block;
 }
 

@@ -5,17 +5,23 @@
 #include "core/template.hpp"
 #include "view/scene_template.hpp"
 
+#include <algorithm>
+#include <array>
 #include <numbers>
-#include <stdexcept>
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::view {
 namespace {
 
 /// The scene's template is a Python program, so that it can be checked as one: its tags are texts.
 constexpr core::TemplateTags tags{"\"@", "@\""};
+
+/// In the order of the enumeration.
+constexpr std::array<std::string_view, 6> colour_names{"velocity", "spin", "height",
+                                                       "trough",   "size", "material"};
 
 /// Converts the text to a Python string literal.
 std::string python_literal(std::string_view text) {
@@ -38,30 +44,14 @@ std::string python_materials(FrameSource const& source) {
 }  // namespace
 
 std::string_view name_of(Colour colour) {
-    switch (colour) {
-        case Colour::velocity:
-            return "velocity";
-        case Colour::spin:
-            return "spin";
-        case Colour::height:
-            return "height";
-        case Colour::trough:
-            return "trough";
-        case Colour::size:
-            return "size";
-        case Colour::material:
-            return "material";
-    }
-    throw std::invalid_argument("no such colour");
+    return colour_names.at(static_cast<std::size_t>(colour));
 }
 
 Colour colour_named(std::string_view name) {
-    for (Colour const colour :
-         {Colour::velocity, Colour::spin, Colour::height, Colour::trough, Colour::size, Colour::material}) {
-        if (name == name_of(colour)) return colour;
-    }
-    throw core::InputError(fmt::format(
-        "grains cannot be coloured by '{}'; choose velocity, spin, height, trough, size or material", name));
+    auto const found = std::ranges::find(colour_names, name);
+    if (found != colour_names.end()) return static_cast<Colour>(found - colour_names.begin());
+    throw core::InputError(fmt::format("grains cannot be coloured by '{}'; choose one of {}", name,
+                                       fmt::join(colour_names, ", ")));
 }
 
 std::filesystem::path write_scene(FrameSource const& source, ColourScales const& scales,

@@ -3,7 +3,6 @@
 #include "core/error.hpp"
 #include "view/frames.hpp"
 #include "view/scene.hpp"
-#include "view/table_vtk.hpp"
 #include "view/theory_map_vtk.hpp"
 #include "view/vtk.hpp"
 
@@ -41,11 +40,6 @@ Colour colour_named(std::string_view /*name*/) {
 
 ExportedFrames export_frames(FrameSource const& /*source*/, std::filesystem::path const& /*target*/,
                              std::function<void(int written, int all)> const& /*progressed*/) {
-    refuse();
-}
-
-void write_table(std::filesystem::path const& /*path*/, std::vector<compare::Row> const& /*rows*/,
-                 std::span<compare::Column const> /*columns*/) {
     refuse();
 }
 

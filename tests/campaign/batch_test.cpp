@@ -25,16 +25,16 @@ class BatchTest : public testing::Test {
 };
 
 TEST_F(BatchTest, ComesBackAsWritten) {
-    Batch batch = write_batch(slurm, folder, tasks, {"/usr/bin/true", 1, {}, 0, false, {}});
-    write_batch(slurm, folder, {tasks[2]}, {"/usr/bin/true", 1, {}, 0, false, {}});
-    auto read = read_batches(slurm, folder);
+    Batch batch = write_batch(folder, tasks, {"/usr/bin/true", 1, {}, 0, false, {}});
+    write_batch(folder, {tasks[2]}, {"/usr/bin/true", 1, {}, 0, false, {}});
+    auto read = read_batches(folder);
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].tasks, tasks);
     EXPECT_EQ(read[0].name, batch.name);
     EXPECT_NE(read[0].name, read[1].name);
     EXPECT_FALSE(read[0].job);
     remember_job(batch, 4711);
-    EXPECT_EQ(read_batches(slurm, folder)[0].job, 4711);
+    EXPECT_EQ(read_batches(folder)[0].job, 4711);
     for (std::size_t i = 0; i < tasks.size(); ++i)
         EXPECT_EQ(read_task(batch.folder / "tasks.txt", static_cast<int>(i)), tasks[i]);
     EXPECT_THROW(read_task(batch.folder / "tasks.txt", 3), core::InputError);
@@ -58,7 +58,7 @@ TEST_F(BatchTest, TheScriptRunsTheProgramAndSaysHowFarItCame) {
     fs::path const program = odd / "vibrotrough";
     std::ofstream(program) << "#!/bin/sh\nprintf '%s\\n' \"$@\" > arguments\nexit 5\n";
     fs::permissions(program, fs::perms::owner_all);
-    Batch const batch = write_batch(slurm, folder, tasks, {program, 2, 90.0, 3, true, {}});
+    Batch const batch = write_batch(folder, tasks, {program, 2, 90.0, 3, true, {}});
     std::string const command = fmt::format(
         "cd '{}' && SLURM_ARRAY_TASK_ID=1 SLURM_ARRAY_JOB_ID=77 sh slurm/0001/job.sh", folder.string());
     int const status = std::system(command.c_str());
@@ -80,7 +80,7 @@ TEST_F(BatchTest, TheScriptRunsSeveralEnginesAndWaitsForAll) {
            "mkdir first 2>/dev/null || { kill -TERM $PPID; sleep 0.5; echo late >> ended; exit 0; }\n"
            "echo early >> ended; exit 3\n";
     fs::permissions(program, fs::perms::owner_all);
-    Batch const batch = write_batch(slurm, folder, tasks, {program, 1, {}, 0, false, {}, 2});
+    Batch const batch = write_batch(folder, tasks, {program, 1, {}, 0, false, {}, 2});
     std::string const command = fmt::format(
         "cd '{}' && SLURM_ARRAY_TASK_ID=0 SLURM_ARRAY_JOB_ID=77 sh slurm/0001/job.sh", folder.string());
     int const status = std::system(command.c_str());
@@ -96,7 +96,7 @@ TEST_F(BatchTest, TheScriptQueuesAWarnedTaskAgain) {
     std::ofstream(program) << "#!/bin/sh\ntrap 'echo told >> said; exit 130' TERM\n"
                               "kill -USR1 $PPID\nsleep 20 > /dev/null 2>&1 & wait\n";
     fs::permissions(program, fs::perms::owner_all);
-    Batch const batch = write_batch(slurm, folder, tasks, {program, 1, {}, 0, false, {}, 1, true});
+    Batch const batch = write_batch(folder, tasks, {program, 1, {}, 0, false, {}, 1, true});
     std::ofstream(batch.folder / "task-2.ended") << "130\n";
     for (int const code : {0, 1}) {
         std::ofstream(folder / "scontrol")
@@ -113,25 +113,24 @@ TEST_F(BatchTest, TheScriptQueuesAWarnedTaskAgain) {
     EXPECT_EQ(core::read_file(folder / "said"), "told\ntold\n");
 }
 
-// A driver that was killed after it had submitted a batch: its tasks have written down the job's number. What
-// Slurm says of them is read as squeue(1) has it.
-TEST_F(BatchTest, AJobThatOnlyItsTasksKnowIsFoundAndAskedFor) {
-    Batch const batch = write_batch(slurm, folder, tasks, {"/usr/bin/true", 1, {}, 0, false, {}});
-    std::ofstream(batch.folder / "task-1.started") << "node 4711\n";
+// A driver that was killed after it had submitted a batch: the job has the batch's name. What Slurm says of
+// its tasks is read as squeue(1) has it.
+TEST_F(BatchTest, AJobWithoutAnIdIsFoundByItsName) {
+    Batch const batch = write_batch(folder, tasks, {"/usr/bin/true", 1, {}, 0, false, {}});
     fs::create_directories(folder / "bin");
-    for (auto const& [name, script] :
-         {std::pair{"squeue",
-                    "case \"$*\" in *'-j 4711 '*) ;; *) exit 0 ;; esac\n"
-                    "echo '4711_0|TIMEOUT|TimeLimit'\necho '4711_1|RUNNING|None'\n"
-                    "echo '4711_2|OUT_OF_MEMORY|None'\n"},
-          {"sacct", "exit 1\n"}}) {
+    std::string const squeue = fmt::format(
+        "case \"$*\" in *'-n {} '*) echo 4711; exit ;; *'-j 4711 '*) ;; *) exit 0 ;; esac\n"
+        "echo '4711_0|TIMEOUT|TimeLimit'\necho '4711_1|RUNNING|None'\n"
+        "echo '4711_2|OUT_OF_MEMORY|None'\n",
+        batch.name);
+    for (auto const& [name, script] : {std::pair{"squeue", squeue}, {"sacct", std::string("exit 1\n")}}) {
         std::ofstream(folder / "bin" / name) << "#!/bin/sh\n" << script;
         fs::permissions(folder / "bin" / name, fs::perms::owner_all);
     }
     std::string const path = std::getenv("PATH");
     ::setenv("PATH", fmt::format("{}:{}", (folder / "bin").string(), path).c_str(), 1);
     std::vector<Batch> batches{batch};
-    auto const found = survey_tasks(slurm, batches);
+    auto const found = survey_tasks(batches);
     ::setenv("PATH", path.c_str(), 1);
     EXPECT_EQ(batches[0].job, 4711);
     EXPECT_EQ(found[0][0].outcome, core::Outcome::time_limit) << found[0][0].message;

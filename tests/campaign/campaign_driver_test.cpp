@@ -21,12 +21,10 @@ class ScriptedExecutor : public Executor {
     static inline bool is_a_cluster;                  ///< whose tasks go on without the driver
     static inline std::vector<RunningPacking> shown;  ///< what it says of what runs
 
-    std::vector<PackingActivity> given_before() override { return {}; }
     std::string submit(std::vector<PackingOrder> const& orders) override {
         queue_.insert(queue_.end(), orders.begin(), orders.end());
         return {};
     }
-    void adopt(PackingOrder const&) override {}
     void withdraw(PlannedCase const& planned) override {
         std::erase_if(queue_, [&](PackingOrder const& order) { return order.planned == &planned; });
     }
@@ -38,7 +36,6 @@ class ScriptedExecutor : public Executor {
         return {script(order)};
     }
     bool is_idle() const override { return queue_.empty(); }
-    void interrupt() override {}
     std::vector<RunningPacking> running() const override { return shown; }
     bool outlives_driver() const override { return is_a_cluster; }
 
@@ -65,11 +62,9 @@ class CampaignDriver : public CampaignFolder {
         ScriptedExecutor::begun.clear();
         ExecutorInputs inputs{folder, {"liggghts", "LIGGGHTS 3.8.0"}, {}, 1, {}};
         inputs.settings.retries = retries;
-        ExecutorKind const kind{"local", "a test",
-                                [](ExecutorInputs const&) -> std::unique_ptr<Executor> {
+        ExecutorKind const kind{"local", [](ExecutorInputs const&) -> std::unique_ptr<Executor> {
                                     return std::make_unique<ScriptedExecutor>();
-                                },
-                                [](fs::path const&) { return std::vector<PackingActivity>(); }};
+                                }};
         observer = {};
         ScriptedExecutor::shown.clear();
         return run_campaign(plan, campaign_file, *make_policy(), kind, inputs, Until::done, observer);

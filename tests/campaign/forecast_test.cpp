@@ -1,6 +1,8 @@
 #include "campaign/schedule/forecast.hpp"
 
 #include "campaign_folder.hpp"
+#include "deck/campaign_check.hpp"
+#include "deck/estimates.hpp"
 
 namespace vibrotrough::campaign {
 namespace {
@@ -18,10 +20,28 @@ TEST_F(ForecastTest, SpeedIsTheWorkOfTheResultsOverTheirTime) {
     };
     Forecast const slow = with_result(20), fast = with_result(10);
     EXPECT_EQ(slow.results, 1);
-    EXPECT_DOUBLE_EQ(slow.speed, planned.prepared->work(60) / 20);
+    EXPECT_DOUBLE_EQ(slow.speed, deck::work_of(*planned.prepared, 0, 60) / 20);
     EXPECT_DOUBLE_EQ(fast.speed, 2 * slow.speed);
     EXPECT_GT(slow.core_time, 0);
     EXPECT_DOUBLE_EQ(fast.core_time, slow.core_time / 2);
+}
+
+// `check` and `plan` say the same of a campaign without results.
+TEST_F(ForecastTest, PlanCostsWhatCheckSays) {
+    deck::CampaignCheck const check = deck::check_campaign(scenario::parse_campaign(campaign_text, "c.toml"));
+    std::vector<CaseOverview> cases;
+    for (PlannedCase const& one : plan.cases) cases.push_back({&one, CaseStatus::open, {}, "", 0, {}});
+    EXPECT_NEAR(forecast(cases).core_time, check.work / deck::usual_speed, 1e-9 * check.work);
+}
+
+// The progress of a run that has done a quarter of its work, at a speed and on cores of its own.
+TEST(TimeToGo, FollowsFromWhatWasDone) {
+    WorkOfRun const work{3000, 1000, 800, 20};
+    TimeToGo const left = time_to_go(work, 10);
+    EXPECT_DOUBLE_EQ(left.wall, 30);
+    EXPECT_DOUBLE_EQ(left.core, 3000 / (800 / 20.0));
+    EXPECT_LT(time_to_go({3000, 0, 0, 20}, 10).wall, 0) << "nothing is known yet";
+    EXPECT_LT(time_to_go(work, 0.5).core, 0);
 }
 
 }  // namespace

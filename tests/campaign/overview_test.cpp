@@ -1,6 +1,6 @@
 #include "campaign/state/overview.hpp"
 
-#include "campaign/state/folder_lock.hpp"
+#include "campaign/state/file_lock.hpp"
 #include "campaign_folder.hpp"
 #include "core/atomic_file.hpp"
 #include "store/result_file.hpp"
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 class Overview : public CampaignFolder {
   protected:
     Overview() { fs::create_directories(folder); }
-    CaseOverview look() const { return survey(plan, {FolderLock::is_held(folder), {}}).at(0); }
+    CaseOverview look() const { return survey(plan, {has_driver(folder), {}}).at(0); }
 };
 
 TEST_F(Overview, OpenThenRunningThenInterrupted) {
@@ -25,7 +25,7 @@ TEST_F(Overview, OpenThenRunningThenInterrupted) {
     fs::create_directories(planned.folder);
     EXPECT_EQ(look().label(), "open") << "prepared, and not started";
     {
-        FolderLock const driver(folder);
+        FileLock const driver = lock_campaign(folder);
         EXPECT_EQ(look().label(), "open") << "a driver that has not come to this case";
         write_packing(2, "cycles");
         EXPECT_EQ(look().label(), "open") << "one packing is done, none runs";
@@ -43,7 +43,7 @@ TEST_F(Overview, FailureUntilItIsTriedAgain) {
     write_failure(planned, {core::Outcome::lost_grains, "3 grains left the box", 1, 1});
     EXPECT_EQ(look().label(), "lost-grains");
     EXPECT_EQ(look().message, "3 grains left the box");
-    FolderLock const driver(folder);
+    FileLock const driver = lock_campaign(folder);
     EXPECT_EQ(look().label(), "lost-grains") << "also while other cases run";
     fs::remove(planned.failure_file());  // what the driver does when it tries again
     fs::create_directories(planned.packing_folder(1));
@@ -55,7 +55,7 @@ TEST_F(Overview, ResultSaysTheOutcome) {
     fs::create_directories(planned.folder);
     write_failure(planned, {core::Outcome::lost_grains, "3 grains left the box", 1, 1});
     store::write_result(planned.result_file(), store::sample_record(planned.id));
-    FolderLock const driver(folder);
+    FileLock const driver = lock_campaign(folder);
     EXPECT_EQ(look().label(), "not-precise");  // the sample's
     EXPECT_EQ(look().message.find("needs about "), 0u) << look().message;
     EXPECT_EQ(look().packings_done, 2);

@@ -3,6 +3,7 @@
 #include "campaign/execute/ranks.hpp"
 #include "campaign_folder.hpp"
 #include "core/atomic_file.hpp"
+#include "deck/estimates.hpp"
 
 #include <algorithm>
 
@@ -28,9 +29,9 @@ class Tasks : public CampaignFolder {
     }
 };
 
-// A packing takes (grain-steps of its cycles) / (grain-steps per second).
+// A packing takes the work of settling and of its cycles over the speed.
 TEST_F(Tasks, TakeAsManyPackingsAsFitIntoTheirDuration) {
-    double const work = planned.prepared->work(24);
+    double const work = deck::work_of(*planned.prepared, 1, 24);
     TaskSize size{{}, work / 60, 1};  // a minute per packing
     EXPECT_DOUBLE_EQ(expected_time(orders(1, 24)[0], size), 60);
     EXPECT_EQ(sizes(make_tasks(orders(7, 24), size)), std::vector<std::size_t>(7, 1));
@@ -42,13 +43,13 @@ TEST_F(Tasks, TakeAsManyPackingsAsFitIntoTheirDuration) {
     EXPECT_TRUE(make_tasks({}, size).empty());
     // 0 cycles: as many as the campaign file allows.
     EXPECT_DOUBLE_EQ(expected_time(orders(1, 0)[0], size),
-                     planned.prepared->work(planned.scenario().measure.max_cycles) / size.speed);
+                     deck::work_of(*planned.prepared, 1, planned.scenario().measure.max_cycles) / size.speed);
 }
 
 // A task with room for several engines gets a packing for each of them, and with a duration as many as fit
 // into it on all its cores.
 TEST_F(Tasks, KeepSeveralEnginesBusy) {
-    double const work = planned.prepared->work(24);
+    double const work = deck::work_of(*planned.prepared, 1, 24);
     TaskSize size{{}, work / 60, 1, 3};  // a minute per packing
     EXPECT_EQ(sizes(make_tasks(orders(7, 24), size)), (std::vector<std::size_t>{3, 3, 1}));
     size.duration = 120.5;
@@ -60,7 +61,7 @@ TEST_F(Tasks, KeepSeveralEnginesBusy) {
 TEST_F(Tasks, CountOnSeveralRanksAsFarAsTheyWereMeasured) {
     int const grains = planned.scenario().layer.grains;
     TaskSize const size{{}, 1, 2};
-    EXPECT_DOUBLE_EQ(planned.prepared->work(24) / expected_time(orders(1, 24)[0], size),
+    EXPECT_DOUBLE_EQ(deck::work_of(*planned.prepared, 1, 24) / expected_time(orders(1, 24)[0], size),
                      std::max(1.0, 2 * parallel_efficiency(grains / 2.0)));
 }
 

@@ -1,7 +1,6 @@
 """A real small campaign through a real Slurm: submitted, watched, with tasks killed on the way, and finished."""
 
 import collections
-import json
 import os
 import re
 import shutil
@@ -164,45 +163,6 @@ class Slurm(EndToEndTest):
         found = sorted(case["message"] for case in status["cases"])
         self.assertRegex(found[0], rf"Slurm says CANCELLED.* of task {job}_1")
         self.assertRegex(found[1], rf"Slurm says FAILED.* of task {job}_0")
-
-    @at_night
-    def test_the_core_hours_that_the_site_counts_stand_beside_our_own(self):
-        """Each engine waits, for which the site counts its two cores and we count nothing."""
-        slurm = self.start_slurm(cpus=4, accounting=True)
-        os.environ["VIBROTROUGH_TEST_BREAK"] = "sleep 3"
-        campaign = self.write_slurm_campaign(RUN_ON_SLURM + "cores_per_task = 2\n", {"measure.packings": 2}, None)
-        job = re.search(r"submitted as job (\d+)\n", self.run_campaign(campaign).stdout)[1]
-        self.assertEqual(self.wait_for_the_end()["finished"], 1)
-
-        def elapsed():
-            rows = slurm.command("sacct", "-n", "-P", "-X", "-D", "-j", job, "-o", "State,ElapsedRaw,AllocCPUS").stdout.splitlines()
-            return [tuple(map(int, row.split("|")[1:])) for row in rows] if all(row.startswith("COMPLETED") for row in rows) else []
-
-        counted = sum(seconds * cores for seconds, cores in wait_until(elapsed, "the accounting knew the end"))
-        self.assertGreaterEqual(counted, 2 * 3)
-        told = json.loads(self.call("status", self.output, "--accounting", "--json").stdout)
-        self.assertEqual(told["core_time_counted_s"], {"slurm": counted})
-        self.assertGreater(told["core_time_s"], 0.1)
-        self.assertLess(told["core_time_s"], counted)
-        text = self.call("status", self.output, "--accounting").stdout
-        self.assertRegex(text, r"core-hours by the engines of all packings\n[0-9.e-]+ core-hours counted by Slurm\n")
-        self.assertNotIn("core_time_s", self.status(), "nobody asked")
-
-        # A job that the accounting has forgotten, or never heard of, is named.
-        (batch,) = (self.output / "slurm").iterdir()
-        other = shutil.copytree(batch, batch.with_name("999"))
-        note = json.loads((other / "batch.json").read_text())
-        (other / "batch.json").write_text(json.dumps(note | {"job": 777777, "name": note["name"] + "-other"}))
-        told = json.loads(self.call("status", self.output, "--accounting", "--json").stdout)
-        self.assertEqual((told["core_time_counted_s"], told["jobs_not_counted"]), ({"slurm": counted}, {"slurm": [777777]}))
-        self.assertIn("Slurm does not know job 777777 any more, which is not counted\n", self.call("status", self.output, "--accounting").stdout)
-        shutil.rmtree(other)
-
-        # Not in what is not asked for, nor where nothing is counted.
-        slurm.stop("slurmdbd")
-        told = json.loads(self.call("status", self.output, "--accounting", "--json").stdout)
-        self.assertEqual(told["core_time_counted_s"], {"slurm": None})
-        self.assertIn("Slurm does not say what it has counted\n", self.call("status", self.output, "--accounting").stdout)
 
     @at_night
     def test_what_slurm_refuses_is_said_in_one_line(self):

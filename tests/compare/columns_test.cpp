@@ -16,15 +16,6 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#ifdef COMPARE_TEST_WITH_VTK
-#include "view/table_vtk.hpp"
-
-#include <vtkDoubleArray.h>
-#include <vtkNew.h>
-#include <vtkTable.h>
-#include <vtkXMLTableReader.h>
-#endif
-
 namespace vibrotrough::compare {
 namespace {
 
@@ -82,21 +73,6 @@ TEST(AnotherColumn, FiltersAndSorts) {
     auto const order = sorted(rows, "speed_number", columns);
     EXPECT_EQ(order[0].id + order[1].id + order[2].id, "cab") << "unknown comes last";
 }
-
-#ifdef COMPARE_TEST_WITH_VTK
-TEST(AnotherColumn, IsInTheVtkTable) {
-    fs::path const path = fs::path(testing::TempDir()) / ("columns_" + std::to_string(::getpid()) + ".vtt");
-    view::write_table(path, rows, columns);
-    vtkNew<vtkXMLTableReader> reader;
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    auto const* const array =
-        vtkDoubleArray::SafeDownCast(reader->GetOutput()->GetColumnByName("speed_number"));
-    ASSERT_NE(array, nullptr);
-    EXPECT_EQ(array->GetValue(2), 12.5);
-    fs::remove(path);
-}
-#endif
 
 TEST(AnotherColumn, IsInTheReportAndInTheReadme) {
     auto const last = column_descriptions(columns).back();

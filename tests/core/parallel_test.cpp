@@ -2,13 +2,10 @@
 
 #include "core/temporary_folder.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <fstream>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -36,13 +33,10 @@ TEST(Parallel, OnlyTheCoresOfTheAffinityMask) {
         if (CPU_ISSET(core, &before)) CPU_SET(core, &one);
     ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
     EXPECT_EQ(count_available_cores(), 1);
-    std::atomic<int> made = 0;
-    for_each_index(1000, 1, [&] { return ++made, [](std::size_t) {}; });
-    EXPECT_EQ(made, 1);
     ASSERT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
 }
 
-// A container's --cpus, in each version of control groups, also where a group above has the lower limit. The
+// A container's --cpus, also where a group above has the lower limit. The
 // path that a process is told may be the host's, of which the container sees the root only.
 TEST(Parallel, QuotaOfProcessorTime) {
     TemporaryFolder const folder;
@@ -58,49 +52,18 @@ TEST(Parallel, QuotaOfProcessorTime) {
     EXPECT_EQ(find_core_quota(folder.path() / "two", "0::/job/step\n"), 2.5);
     write("own/cpu.max", "150000 100000\n");
     EXPECT_EQ(find_core_quota(folder.path() / "own", "0::/system.slice/of-the-host\n"), 1.5);
-    write("one/cpu/cpu.cfs_quota_us", "-1\n");
-    write("one/cpu/cpu.cfs_period_us", "100000\n");
-    write("one/cpu/job/cpu.cfs_quota_us", "50000\n");
-    write("one/cpu/job/cpu.cfs_period_us", "100000\n");
-    std::string const others = "5:cpuset:/\n3:memory:/job\n";
-    EXPECT_EQ(find_core_quota(folder.path() / "one", others + "4:cpu,cpuacct:/job\n0::/\n"), 0.5);
-    EXPECT_EQ(find_core_quota(folder.path() / "one", others + "4:cpu,cpuacct:/\n"), std::nullopt);
-    EXPECT_EQ(find_core_quota(folder.path() / "one", others), std::nullopt);
     write("odd/cpu.max", "many few\n");
     EXPECT_EQ(find_core_quota(folder.path() / "odd", "0::/\nno line of this kind\n"), std::nullopt);
     EXPECT_EQ(find_core_quota(folder.path() / "nowhere", "0::/\n"), std::nullopt);
 }
 
-// Items that wait, for a slow file system, wait at the same time, however few cores there are. The first item
-// says how much they wait; it waits so long that what other programs take of the cores meanwhile is little
-// beside it.
-TEST(Parallel, WaitingItemsWaitTogether) {
-    std::atomic<int> done = 0;
-    std::atomic<int> waiting = 0;
-    std::atomic<int> most = 0;
-    for_each_index(129, 1000, [&] {
-        return [&](std::size_t i) {
-            int const now = ++waiting;
-            for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) continue;
-            std::this_thread::sleep_for(std::chrono::milliseconds(i == 0 ? 500 : 20));
-            --waiting;
-            ++done;
-        };
-    });
-    EXPECT_EQ(done, 129);
-    EXPECT_GE(most, 8);  // four for each core, from which on there are more threads than cores, of two cores
-}
-
 // Few items are not worth a thread: the state of the work is made once.
 TEST(Parallel, FewItemsInOneThread) {
-    // A busy machine may hold up the first item, which then looks as if it waited for a file.
-    int fewest = 63;
-    for (int run = 0; run < 20 && fewest > 1; ++run) {
-        std::atomic<int> made = 0;
-        for_each_index(63, 64, [&] { return ++made, [](std::size_t) {}; });
-        fewest = std::min(fewest, made.load());
-    }
-    EXPECT_EQ(fewest, 1);
+    std::atomic<int> made = 0;
+    for_each_index(127, 64, [&] { return ++made, [](std::size_t) {}; });
+    EXPECT_EQ(made, 1);
+    for_each_index(6400, 64, [&] { return ++made, [](std::size_t) {}; });
+    EXPECT_GE(made, 17);
 }
 
 // The error is that of the first item by number, in every run.

@@ -37,17 +37,6 @@ TEST(Template, SectionsAreShownOrRepeated) {
     EXPECT_EQ(rendered("{{#list}}x{{/list}}.", data), ".");
 }
 
-TEST(Template, DataIsCopiedWhole) {
-    TemplateData data, element;
-    element.set("name", "1");
-    data.set("list", std::vector{element});
-    TemplateData copy = data;
-    data.set("list", std::vector<TemplateData>{});
-    EXPECT_EQ(rendered("{{#list}}{{name}}{{/list}}", copy), "1");
-    copy = data;
-    EXPECT_EQ(rendered("{{#list}}{{name}}{{/list}}.", copy), ".");
-}
-
 TEST(Template, OtherTagsMayBeChosen) {
     TemplateData data;
     data.set("SPEED", "\"fast\"");

@@ -21,8 +21,9 @@ using Names = std::set<std::string>;
 // These tests probe the real LIGGGHTS, and scripts that alter the deck before they start it.
 class Probe : public testing::Test {
   protected:
-    static Certificate certificate_of(Engine const& engine) {
-        return probe_engine(engine, identify(engine)).value();
+    static Certificate certificate_of(Engine engine) {
+        EngineIdentity const identity = identify(engine);
+        return probe_engine(engine, identity).value();
     }
 
     /// The certificate of an engine that first runs `commands` in the folder of the deck.
@@ -48,7 +49,7 @@ class Probe : public testing::Test {
 TEST_F(Probe, TheRealEnginePasses) {
     Certificate const certificate = certificate_of(find_engine({}));
     for (ProbeResult const& probe : certificate.probes)
-        EXPECT_TRUE(probe.passed()) << probe.name << ": " << probe.measured << " " << probe.problem;
+        EXPECT_TRUE(probe.passed()) << probe.name << ": " << probe.measured;
     EXPECT_EQ(certificate.probes.size(), 7u);
     EXPECT_TRUE(certificate.passed());
 }
@@ -75,8 +76,7 @@ TEST_F(Probe, AnEngineThatBreaksFailsWithItsMessage) {
                                           std::pair{"sed -i /^dump/d in.liggghts", "grains.dump"}}) {
         Certificate const certificate = certificate_after(commands);
         EXPECT_FALSE(certificate.passed());
-        for (ProbeResult const& probe : certificate.probes)
-            EXPECT_NE(probe.problem.find(words), std::string::npos) << probe.name << ": " << probe.problem;
+        EXPECT_NE(certificate.problem.find(words), std::string::npos) << certificate.problem;
     }
 }
 

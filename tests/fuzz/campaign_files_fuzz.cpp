@@ -50,8 +50,7 @@ void check_motion(scenario::Trough const& trough) {
 /// The integration takes some milliseconds for each sphere.
 void check_clump(scenario::Grains const& grains) {
     if (!grains.shape_file || grains.shape_file->spheres.size() > 6) return;
-    prepare::ClumpMaker maker;
-    auto const clump = maker.clump(grains);
+    auto const clump = prepare::make_clump(grains);
     require(std::isfinite(clump->volume) && clump->volume > 0);
     require(std::isfinite(clump->bounding_radius) && clump->bounding_radius >= clump->smallest_radius);
     // The volume is that of a sphere of the grains' diameter; the integration knows it to 1e-2 at worst.

@@ -58,14 +58,6 @@ TEST(PreparedCase, AStepCostsMoreInALargeLayer) {
     EXPECT_DOUBLE_EQ(c.work(3), c.grain_steps(3) * relative_step_cost(c.scenario.layer.grains));
 }
 
-TEST(PreparedCase, CasesShareTheirClump) {
-    CasePreparer preparer;
-    std::string const cubes = with("diameter_spread = 0.1", "shape = \"cube\"");
-    auto const first = preparer.prepare(scenario_of(cubes));
-    auto const second = preparer.prepare(scenario_of(cubes + "[sweep]\n\"trough.friction\" = [0.5]\n"));
-    EXPECT_EQ(first.clump, second.clump);
-}
-
 // What is taken out of an open trough has left it: a grain whose centre is at out_x lies as a whole beyond
 // the edge, wherever the trough is, and one at out_near_x still rests on it.
 TEST(PreparedCase, AnOpenTroughKeepsTheGrainsThatAreStillOverIt) {

@@ -3,7 +3,6 @@
 // with a wall.
 
 #include "view/frames.hpp"
-#include "view/table_vtk.hpp"
 #include "view/theory_map_vtk.hpp"
 
 #include <cstdio>
@@ -70,11 +69,6 @@ void export_maps(fs::path const& folder) {
                                               {theory::Input::vibration_angle_deg, 10, 50, 5}, {.jobs = 1});
     view::write_theory_image(folder / "map.vti", map);
     view::write_theory_boundaries(folder / "modes.vtp", map);
-    std::vector<compare::Row> rows(3);
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].id = std::string(1, "abc"[i]);
-    rows[0].efficiency_theory = 1.5;
-    rows[1].efficiency_theory = 2.0;
-    view::write_table(folder / "campaign.vtt", rows);
 }
 
 void export_contacts(fs::path const& dumps, fs::path const& folder) {

@@ -306,7 +306,7 @@ TEST_F(Frames, GarbageNamesFileAndLine) {
     EXPECT_THAT(with("id type", "if type"), AllOf(HasSubstr("frames.60300.dump:9: "), HasSubstr("'id'")));
     EXPECT_THAT(with("\n60300\n", "\n60301\n"), HasSubstr("frames.60300.dump:2: "));
     EXPECT_THAT(with("\n500\n", "\n499\n"),
-                AllOf(HasSubstr("frames.60300.dump:509: "), HasSubstr("last grain")));
+                AllOf(HasSubstr("frames.60300.dump:509: "), HasSubstr("last row")));
     EXPECT_THAT(with("\n500\n", "\n-5\n"), HasSubstr("frames.60300.dump:4: "));
     // The header states more grains than the file contains: a truncated file in the middle of the run.
     EXPECT_THAT(with("\n500\n", "\n4000000000000\n"), HasSubstr("ends early"));

@@ -12,9 +12,7 @@ struct CheckArguments {
     bool json = false;
 };
 
-/// Grain-steps per second: Debian's LIGGGHTS 3.8.0 on one core with 600 to 5000 grains, 5 to 6.5 million were
-/// measured.
-constexpr double usual_speed = 5e6;
+using deck::usual_speed;
 
 Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -36,7 +34,7 @@ Json describe(prepare::PreparedCase const& prepared, int number, std::string con
     Json findings = Json::array();
     for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
     int const packings = deck::expected_packings(prepared.scenario);
-    double const work = packings * deck::expected_work(prepared);
+    double const work = deck::expected_work(prepared, packings);
     scenario::Grains const& grains = prepared.scenario.grains;
     double const density = mean_density(prepared.scenario);
     return {{"case", number},
@@ -69,10 +67,10 @@ void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& f
                     {"engine_memory_bytes", found.engine_memory},
                     {"expected_core_hours", found.work / usual_speed / 3600},
                     {"cases", Json::array()}};
-    prepare::CasePreparer preparer;
     print_with_list(head, campaign.cases.size(), [&](std::size_t i) {
         scenario::Scenario const& one = campaign.cases[i];
-        return describe(preparer.prepare(one), static_cast<int>(i) + 1, swept_label(one, campaign.swept));
+        return describe(prepare::prepare_case(one), static_cast<int>(i) + 1,
+                        swept_label(one, campaign.swept));
     });
 }
 

@@ -3,7 +3,8 @@
 #include "app/commands/command.hpp"
 #include "app/extra_lines.hpp"
 #include "campaign/schedule/policy.hpp"
-#include "deck/deck_folder.hpp"
+#include "core/atomic_file.hpp"
+#include "core/shell.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
@@ -40,11 +41,10 @@ int run_deck(DeckArguments const& options) {
     tell_not_covered(campaign.cases);
     core::make_folder(options.output);
     int number = 0;
-    prepare::CasePreparer preparer;
     auto const policy = campaign::make_policy();
     for (scenario::Scenario const& scenario : campaign.cases) {
         campaign::PlannedCase planned;
-        planned.prepared = std::make_shared<prepare::PreparedCase const>(preparer.prepare(scenario));
+        planned.prepared = std::make_shared<prepare::PreparedCase const>(prepare::prepare_case(scenario));
         prepare::PreparedCase const& prepared = *planned.prepared;
         fs::path const folder = fs::path(options.output) / fmt::format("case-{:03}", ++number);
         auto const first_round = policy->decide({&planned, {}, {}, {}}).wanted;

@@ -9,7 +9,6 @@
 #include "scenario/model/stage_motion.hpp"
 #include "view/frames.hpp"
 #include "view/scene.hpp"
-#include "view/table_vtk.hpp"
 #include "view/vtk.hpp"
 
 #include <unistd.h>
@@ -20,23 +19,8 @@ namespace {
 struct ExportArguments {
     std::string folder;
     std::string id;
-    bool table = false;
     std::string colour = "velocity";
 };
-
-/// Writes the campaign's table for ParaView and returns its path.
-fs::path export_table(campaign::Plan const& plan) {
-    fs::path const path = plan.folder / "view" / "campaign.vtt";
-    core::make_folder(path.parent_path());
-    auto const compared = compare::compared_cases(plan, campaign::activity_in(plan.folder));
-    view::write_table(path, compared.rows, compared.columns);
-    tell_left_aside(plan, compared.cases);
-    return fs::absolute(path).lexically_normal();
-}
-
-void print_table(campaign::Plan const& plan) {
-    fmt::print("table of all cases: open with: paraview {}\n", core::shell_word(export_table(plan)));
-}
 
 /// The theory's point mass beside the grains; none when its motion has no period.
 std::optional<view::TheoryMotion> theory_motion(prepare::PreparedCase const& prepared) {
@@ -134,10 +118,6 @@ int export_case(campaign::PlannedCase const& planned, view::Colour colour) {
 int run_export(ExportArguments const& options) {
     view::require_vtk();
     campaign::Plan const plan = campaign::open_plan(options.folder);
-    if (options.table) {
-        print_table(plan);
-        return all_well;
-    }
     view::Colour const colour = view::colour_named(options.colour);
     bool known = options.id.empty();
     int exported = 0;
@@ -162,7 +142,6 @@ int run_export(ExportArguments const& options) {
             "again",
             options.folder));
     }
-    if (options.id.empty()) print_table(plan);
     return all_well;
 }
 
@@ -171,12 +150,10 @@ int run_export(ExportArguments const& options) {
 void add_export(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<ExportArguments>();
     CLI::App* const command = program.add_subcommand(
-        "export", std::string("Write the frames and the table of a campaign for ParaView") +
+        "export", std::string("Write the frames of a campaign for ParaView") +
                       (view::has_vtk() ? "" : " (not in this program, which was built without VTK)"));
     add_campaign_folder(*command, options->folder);
     add_text(*command, "--case", options->id, "Only this case; default: all cases with frames", "ID");
-    command->add_flag("--table", options->table,
-                      "Write only the table of all cases (view/campaign.vtt), and no frames");
     command
         ->add_option("--colour", options->colour,
                      "What the scene colours the grains by: velocity (along the trough, less the layer's "
@@ -195,7 +172,8 @@ With contacts = true under [output], contacts.pvd holds the contacts of the grai
 
 Four .pvd files are written for each case: the grains, the trough, the theory's point mass (a block that moves in step
 with the grains), and the velocity profile of the layer; with walls a fifth. The script view.sh beside them opens them
-all. Without --case, the table of all cases is written too. Prints the commands that open the files. Works while a case runs.
+all. Prints the commands that open the files. Works while a case runs. The table of all cases can be opened in ParaView as
+'vibrotrough compare --csv' writes it.
 
 Example:
   vibrotrough export runs/demo)");

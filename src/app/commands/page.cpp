@@ -61,7 +61,6 @@ Json cases_of(std::string const& folder) {
     compare::ComparedCases const compared = compare::compared_cases(plan, campaign::activity_in(plan.folder));
     tell_left_aside(plan, compared.cases);
     Json cases = Json::array();
-    prepare::CasePreparer preparer;
     for (compare::Row const& row : compared.rows) {
         Json const all = compare::to_object(row, compared.columns);
         Json one;
@@ -70,7 +69,7 @@ Json cases_of(std::string const& folder) {
         for (std::string_view const column : page_columns)
             if (all.contains(column)) one[std::string(column)] = all.at(std::string(column));
         if (planned != plan.cases.end())
-            one["depth_mm"] = 1e3 * preparer.prepare(planned->scenario()).layer_height;
+            one["depth_mm"] = 1e3 * prepare::prepare_case(planned->scenario()).layer_height;
         cases.push_back(std::move(one));
     }
     return {{"name", name_of(folder)}, {"cases", cases}};

@@ -74,10 +74,10 @@ PredictedLayer predict_layer(prepare::PreparedCase const& prepared, std::string 
 
 std::vector<PredictedLayer> predict_all(scenario::Campaign const& campaign) {
     std::vector<PredictedLayer> layers;
-    prepare::CasePreparer preparer;
     for (scenario::Scenario const& scenario : campaign.cases) {
         std::string const label = swept_label(scenario, campaign.swept);
-        layers.push_back(predict_layer(preparer.prepare(scenario), label.empty() ? campaign.name : label));
+        layers.push_back(
+            predict_layer(prepare::prepare_case(scenario), label.empty() ? campaign.name : label));
     }
     return layers;
 }

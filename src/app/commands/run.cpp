@@ -38,10 +38,10 @@ void print_unused_cases(campaign::Plan const& plan) {
 }
 
 /// What was submitted, for packings that run on after this command has returned.
-std::string describe_submission(campaign::Summary const& summary, std::string_view executor) {
+std::string describe_submission(campaign::Summary const& summary) {
     std::string text;
     if (summary.in_queue > 0)
-        text += fmt::format("; {} packings are in {}'s queue already", summary.in_queue, executor);
+        text += fmt::format("; {} packings are in Slurm's queue already", summary.in_queue);
     if (summary.submitted > summary.not_taken) {
         text += fmt::format("; {} packings submitted as {}", summary.submitted - summary.not_taken,
                             fmt::join(summary.references, "; "));
@@ -49,21 +49,21 @@ std::string describe_submission(campaign::Summary const& summary, std::string_vi
     }
     if (summary.not_taken > 0) {
         text += fmt::format(
-            "; {} has no room for {} packings now: call the same command again later, or with --wait, which "
+            "; Slurm has no room for {} packings now: call the same command again later, or with --wait, "
+            "which "
             "submits them as others end",
-            executor, summary.not_taken);
+            summary.not_taken);
     }
     return text;
 }
 
 /// Writes the summary of the run to standard output and to the log, and returns the exit code.
-int report(campaign::Summary const& summary, campaign::Plan const& plan, campaign::ExecutorKind const& kind,
-           campaign::Until until) {
+int report(campaign::Summary const& summary, campaign::Plan const& plan, campaign::Until until) {
     bool const has_waited = until == campaign::Until::done && !summary.interrupted;
     bool const is_queued = !summary.references.empty() || summary.in_queue > 0 || summary.not_taken > 0;
     bool const runs_on = is_queued && !has_waited;
-    std::string const end = describe(summary, plan.cases.size(), runs_on) +
-                            (runs_on ? describe_submission(summary, kind.title) : "");
+    std::string const end =
+        describe(summary, plan.cases.size(), runs_on) + (runs_on ? describe_submission(summary) : "");
     CampaignLog(plan.folder).info("run ends: " + end);
     fmt::print("{}\n", end);
     print_unused_cases(plan);
@@ -84,7 +84,7 @@ int run_run(RunArguments const& options) {
     auto const until = options.wait ? campaign::Until::done : campaign::Until::submitted;
     campaign::Summary const summary =
         drive_campaign(options.shared, ready, *campaign::make_policy(), until, *ready.kind);
-    return report(summary, ready.plan, *ready.kind, until);
+    return report(summary, ready.plan, until);
 }
 
 }  // namespace

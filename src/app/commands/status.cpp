@@ -2,10 +2,9 @@
 #include "app/commands/command.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/schedule/forecast.hpp"
-#include "campaign/schedule/policy.hpp"
 #include "campaign/state/campaign_folder.hpp"
+#include "campaign/state/case_state.hpp"
 #include "campaign/state/overview.hpp"
-#include "campaign/state/pace.hpp"
 #include "compare/compared_cases.hpp"
 #include "compare/exports.hpp"
 #include "core/text.hpp"
@@ -16,30 +15,7 @@ namespace {
 struct StatusArguments {
     std::string folder;
     bool json = false;
-    bool accounting = false;
 };
-
-/// Core time of the engines as the packings' files have it, and what the sites have counted.
-struct SpentTime {
-    double of_engines = 0;  ///< s
-    std::vector<campaign::CountedTime> counted = {};
-};
-
-SpentTime find_spent_time(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
-    SpentTime spent;
-    for (campaign::CaseOverview const& one : cases) {
-        if (one.result) {
-            spent.of_engines += one.result->core_time;
-        } else if (one.status != campaign::CaseStatus::open) {
-            for (auto const& [number, packing] : campaign::know(*one.planned).packings)
-                spent.of_engines += packing.core_time;
-        }
-    }
-    for (campaign::ExecutorKind const& kind : campaign::executor_kinds()) {
-        if (auto const counted = kind.counted(plan.folder)) spent.counted.push_back(*counted);
-    }
-    return spent;
-}
 
 /// Number of cases by state. `unsure` counts those with a result and another outcome than finished.
 struct Counts {
@@ -71,19 +47,12 @@ struct StatusView {
     campaign::Plan const& plan;
     std::vector<campaign::CaseOverview> const& cases;
     campaign::Forecast const& cost;
-    std::optional<SpentTime> spent;  ///< when it was asked for
 };
 
-Json describe(campaign::PackingPace const& pace) {
-    return {{"packing", pace.packing},
-            {"cycles", pace.cycles},
-            {"seconds_per_cycle", pace.seconds_per_cycle ? Json(*pace.seconds_per_cycle) : Json()}};
-}
-
-/// The packings that are being simulated; none of a case that nobody works on.
-std::vector<campaign::PackingPace> paces_of(campaign::CaseOverview const& one) {
+/// Cycles by packing of those that are being simulated; none of a case that nobody works on.
+std::map<int, int> cycles_under_way(campaign::CaseOverview const& one) {
     if (one.status != campaign::CaseStatus::running) return {};
-    return campaign::packings_under_way(*one.planned);
+    return campaign::cycles_under_way(*one.planned);
 }
 
 void print_json(StatusView const& view) {
@@ -92,7 +61,8 @@ void print_json(StatusView const& view) {
     auto const describe_case = [&](std::size_t i) {
         campaign::CaseOverview const& one = view.cases[i];
         Json running = Json::array();
-        for (campaign::PackingPace const& pace : paces_of(one)) running.push_back(describe(pace));
+        for (auto const& [packing, cycles] : cycles_under_way(one))
+            running.push_back({{"packing", packing}, {"cycles", cycles}});
         Json object{{"case", one.planned->id},
                     {"label", one.planned->label},
                     {"outcome", one.label()},
@@ -114,41 +84,19 @@ void print_json(StatusView const& view) {
               {"left", counts.left},
               {"core_time_to_go_s", view.cost.core_time},
               {"core_time_uncertainty_factor", view.cost.uncertainty}};
-    if (view.spent) {
-        head["core_time_s"] = view.spent->of_engines;
-        for (campaign::CountedTime const& one : view.spent->counted)
-            head["core_time_counted_s"][std::string(one.name)] =
-                one.core_time ? Json(*one.core_time) : Json();
-        for (campaign::CountedTime const& one : view.spent->counted)
-            if (!one.missing.empty()) head["jobs_not_counted"][std::string(one.name)] = one.missing;
-    }
     head["cases"] = Json::array();
     print_with_list(head, view.cases.size(), describe_case);
 }
 
-/// "; packing 2: 21 cycles, 0.44 s per cycle; about 0.02 core-hours to go"
+/// "; packing 2: 21 cycles; about 0.02 core-hours to go"
 std::string describe_progress(campaign::CaseOverview const& one, double core_time) {
     std::string text;
-    for (campaign::PackingPace const& pace : paces_of(one)) {
-        text += fmt::format("; packing {}: {} cycles", pace.packing, pace.cycles);
-        if (pace.seconds_per_cycle) text += fmt::format(", {:.2g} s per cycle", *pace.seconds_per_cycle);
-    }
+    for (auto const& [packing, cycles] : cycles_under_way(one))
+        text += fmt::format("; packing {}: {} cycles", packing, cycles);
     bool const goes_on =
         one.status != campaign::CaseStatus::ended && one.status != campaign::CaseStatus::failed;
     if (goes_on && core_time > 0) text += fmt::format("; about {:.2g} core-hours to go", core_time / 3600);
     return text;
-}
-
-void print_spent(SpentTime const& spent) {
-    fmt::print("{:.3g} core-hours by the engines of all packings\n", spent.of_engines / 3600);
-    for (campaign::CountedTime const& one : spent.counted) {
-        fmt::print("{}\n", one.core_time ? fmt::format("{:.3g} core-hours counted by {}",
-                                                       *one.core_time / 3600, one.title)
-                                         : fmt::format("{} does not say what it has counted", one.title));
-        if (!one.missing.empty())
-            fmt::print("{} does not know job {} any more, which is not counted\n", one.title,
-                       fmt::join(one.missing, ", "));
-    }
 }
 
 void print_text(StatusView const& view) {
@@ -170,7 +118,6 @@ void print_text(StatusView const& view) {
         "campaign {}: {} case{}; {} finished, {} not steady or not precise, {} failed, {} running, {} left\n",
         view.plan.name, view.cases.size(), view.cases.size() == 1 ? "" : "s", counts.finished, counts.unsure,
         counts.failed, counts.running, counts.left);
-    if (view.spent) print_spent(*view.spent);
     if (counts.running + counts.left == 0 || view.cost.core_time <= 0) return;
     fmt::print("about {:.3g} core-hours to go (probably {:.2g} to {:.2g})\n", view.cost.core_time / 3600,
                view.cost.core_time / view.cost.uncertainty / 3600,
@@ -181,8 +128,7 @@ int run_status(StatusArguments const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder), {}, campaign::Trust::stamp);
     campaign::Forecast const cost = campaign::forecast(cases);
-    StatusView const view{plan, cases, cost,
-                          options.accounting ? std::optional(find_spent_time(plan, cases)) : std::nullopt};
+    StatusView const view{plan, cases, cost};
     options.json ? print_json(view) : print_text(view);
     tell_left_aside(plan, cases);
     return all_well;
@@ -196,12 +142,9 @@ void add_status(CLI::App& program, int& exit_code) {
         "status", "Show which cases of a campaign are finished, running, failed or still to do");
     add_campaign_folder(*command, options->folder);
     command->add_flag("--json", options->json, "Print JSON for scripts");
-    command->add_flag(
-        "--accounting", options->accounting,
-        "Also show the core-hours spent, and those that the scheduler's accounting has counted");
     command->footer(
         R"(Prints one line for each case that has started: its id, the values of the swept keys, its state, how
-many of its packings have ended, how far the running ones are and how long a cycle takes them, the core time that the
+many of its packings have ended, how far the running ones are, the core time that the
 case still needs as it is estimated from the finished ones, and why it failed or waits. Of a case that is not precise it says how many packings and core-hours it would still
 need, and of one that is bistable or slow the velocity efficiency of both branches. The last line counts the cases. The
 command works while the campaign runs, and it changes nothing.

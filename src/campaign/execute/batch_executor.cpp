@@ -1,7 +1,5 @@
-#include "campaign/execute/batch_executor.hpp"
-
 #include "campaign/execute/batch.hpp"
-#include "campaign/state/campaign_folder.hpp"
+#include "campaign/execute/executors.hpp"
 #include "campaign/state/case_state.hpp"
 #include "core/error.hpp"
 
@@ -21,26 +19,15 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-SubmittedArray submitted(Batch const& batch) {
-    return {batch.name, batch.job, static_cast<int>(batch.tasks.size())};
-}
-
 class BatchExecutor : public Executor {
   public:
-    BatchExecutor(Scheduler const& scheduler, ExecutorInputs const& inputs)
-        : scheduler_(scheduler), inputs_(inputs), asked_(inputs_.settings.batch(scheduler.name)) {}
+    explicit BatchExecutor(ExecutorInputs const& inputs) : inputs_(inputs) {}
 
-    std::vector<PackingActivity> given_before() override {
-        std::vector<Batch> batches = read_batches(scheduler_, inputs_.campaign_folder);
-        remember_lost_tasks(scheduler_, batches);
-        return survey_packings(scheduler_, batches);
-    }
+    std::vector<PackingActivity> given_before() override { return survey_packings(inputs_.campaign_folder); }
 
     std::string submit(std::vector<PackingOrder> const& orders) override {
         if (orders.empty()) return {};
-        std::vector<PlannedCase const*> cases;
-        for (PackingOrder const& order : orders) cases.push_back(cases_[order.id()] = order.planned);
-        write_case_files(std::move(cases));
+        for (PackingOrder const& order : orders) cases_[order.id()] = order.planned;
         std::ranges::move(make_tasks(orders, {inputs_.task_duration, inputs_.speed, ranks(), engines()}),
                           std::back_inserter(backlog_));
         std::vector<long> const jobs = submit_backlog();
@@ -60,8 +47,8 @@ class BatchExecutor : public Executor {
         for (Task& task : backlog_) std::erase_if(task, is_of_case);
         std::erase_if(backlog_, [](Task const& task) { return task.empty(); });
         if (!std::ranges::any_of(held_, [&](auto const& held) { return is_of_case(held.first); })) return;
-        std::vector<Batch> batches = read_batches(scheduler_, inputs_.campaign_folder);
-        auto const activities = survey_tasks(scheduler_, batches);
+        std::vector<Batch> batches = read_batches(inputs_.campaign_folder);
+        auto const activities = survey_tasks(batches);
         for (std::size_t i = 0; i < batches.size(); ++i) {
             std::vector<int> waiting;
             for (std::size_t k = 0; k < activities[i].size(); ++k) {
@@ -71,7 +58,7 @@ class BatchExecutor : public Executor {
                 waiting.push_back(static_cast<int>(k));
                 for (PackingId const& id : task) held_.erase(id);
             }
-            if (!waiting.empty()) scheduler_.cancel(submitted(batches[i]), waiting);
+            if (!waiting.empty()) cancel_in_slurm({batches[i].name, batches[i].job}, waiting);
         }
     }
 
@@ -79,9 +66,9 @@ class BatchExecutor : public Executor {
         std::this_thread::sleep_for(250ms);
         std::vector<EndedPacking> ended;
         if (Clock::now() < next_survey_) return ended;
-        std::vector<Batch> batches = read_batches(scheduler_, inputs_.campaign_folder);
         std::map<PackingId, PackingActivity> now;
-        for (PackingActivity& one : survey_packings(scheduler_, batches)) now.emplace(one.id, std::move(one));
+        for (PackingActivity& one : survey_packings(inputs_.campaign_folder))
+            now.emplace(one.id, std::move(one));
         for (auto held = held_.begin(); held != held_.end();) {
             auto const found = now.find(held->first);
             bool const has_ended = found != now.end() && found->second.state == PackingActivity::ended;
@@ -95,11 +82,10 @@ class BatchExecutor : public Executor {
 
     bool is_idle() const override { return (held_.empty() && backlog_.empty()) || is_interrupted_; }
     void interrupt() override { is_interrupted_ = true; }
-    std::vector<RunningPacking> running() const override { return {}; }
     bool outlives_driver() const override { return true; }
 
   private:
-    /// What the task itself may use of the scheduler's time, so that it can still write its exit marker.
+    /// What the task itself may use of Slurm's time, so that it can still write its exit marker.
     std::optional<double> time_limit() const {
         std::optional<double> limit = inputs_.settings.time_limit;
         if (asked_.minutes && !is_warned()) {
@@ -110,7 +96,7 @@ class BatchExecutor : public Executor {
         return limit;
     }
 
-    /// Gives the scheduler as many tasks as it takes now: arrays no longer than the site allows, and shorter
+    /// Gives Slurm as many tasks as it takes now: arrays no longer than the site allows, and shorter
     /// ones while there is no room for them.
     std::vector<long> submit_backlog() {
         std::vector<long> jobs;
@@ -148,16 +134,16 @@ class BatchExecutor : public Executor {
                                asked_.setup,
                                engines(),
                                is_warned()};
-        Batch batch = write_batch(scheduler_, inputs_.campaign_folder, tasks, script);
+        Batch batch = write_batch(inputs_.campaign_folder, tasks, script);
         JobArray const array{std::filesystem::absolute(inputs_.campaign_folder),
-                             fmt::format("{}/{}", scheduler_.name, batch.folder.filename().string()),
+                             "slurm/" + batch.folder.filename().string(),
                              batch.name,
                              static_cast<int>(tasks.size()),
                              std::max(ranks(), asked_.cores_per_task.value_or(1)),
                              of_largest(tasks)};
         Submission made;
         try {
-            made = scheduler_.submit(array);
+            made = submit_to_slurm(array);
         } catch (core::MissingError const&) {
             std::filesystem::remove_all(batch.folder);  // what is refused leaves nothing behind
             throw;
@@ -174,18 +160,18 @@ class BatchExecutor : public Executor {
 
     /// Whether a task hears of its end before it comes, and can be queued again.
     bool is_warned() const {
-        Requeueing const& how = scheduler_.requeueing;
-        auto const has = [&](auto const& is_it) {
-            return std::ranges::any_of(asked_.extra, is_it, &scenario::BatchOption::str);
+        auto const has = [&](std::string_view start) {
+            return std::ranges::any_of(asked_.extra, [&](scenario::BatchOption const& option) {
+                return option.str().starts_with(start);
+            });
         };
-        return !how.option.empty() && has([&](std::string const& text) { return text == how.option; }) &&
-               has([&](std::string const& text) { return text.starts_with(how.warning); });
+        return has("--requeue") && has("--signal=B:USR1@");
     }
 
     /// That a task runs at the same time.
     int engines() const { return std::max(1, asked_.cores_per_task.value_or(1) / ranks()); }
 
-    /// What is asked of the scheduler: the keys time and memory are those of one packing.
+    /// What is asked of Slurm: the keys time and memory are those of one packing.
     scenario::BatchSettings of_largest(std::vector<Task> const& tasks) const {
         scenario::BatchSettings settings = asked_;
         int const most = static_cast<int>(std::ranges::max(tasks, {}, &Task::size).size());
@@ -194,8 +180,7 @@ class BatchExecutor : public Executor {
         return settings;
     }
 
-    /// The packing's marker counts most, then the failure that the task recorded, then the scheduler's
-    /// report.
+    /// The packing's marker counts most, then the failure that the task recorded, then Slurm's report.
     static EndedPacking end_of(PlannedCase const& planned, PackingActivity const& activity) {
         EndedPacking ended{activity.id, {}, {}};
         if (evaluate::read_marker(planned.packing_folder(activity.id.packing))) return ended;
@@ -209,9 +194,8 @@ class BatchExecutor : public Executor {
 
     static constexpr std::size_t largest_array = 100'000;
 
-    Scheduler const& scheduler_;
     ExecutorInputs inputs_;
-    scenario::BatchSettings const& asked_;           ///< in inputs_
+    scenario::BatchSettings const& asked_ = inputs_.settings.slurm;
     std::map<PackingId, PlannedCase const*> held_;   ///< submitted by this process, not seen to end
     std::map<PackingId, PlannedCase const*> cases_;  ///< of all packings that this process was given
     std::deque<Task> backlog_;                       ///< tasks for which there was no room yet
@@ -224,31 +208,8 @@ class BatchExecutor : public Executor {
 
 }  // namespace
 
-std::unique_ptr<Executor> make_batch_executor(Scheduler const& scheduler, ExecutorInputs const& inputs) {
-    return std::make_unique<BatchExecutor>(scheduler, inputs);
-}
-
-std::vector<PackingActivity> batch_activity(Scheduler const& scheduler,
-                                            std::filesystem::path const& campaign_folder) {
-    std::vector<Batch> batches = read_batches(scheduler, campaign_folder);
-    return survey_packings(scheduler, batches);
-}
-
-std::optional<CountedTime> batch_core_time(Scheduler const& scheduler,
-                                           std::filesystem::path const& campaign_folder) {
-    std::vector<SubmittedArray> arrays;
-    for (Batch const& batch : read_batches(scheduler, campaign_folder)) arrays.push_back(submitted(batch));
-    if (arrays.empty()) return {};
-    CountedTime counted{scheduler.name, scheduler.title, {}, {}};
-    try {
-        if (scheduler.count_core_time != nullptr) counted.core_time = scheduler.count_core_time(arrays);
-    } catch (core::MissingError const&) {
-        // There is no such scheduler here, or it does not answer.
-    }
-    if (!counted.core_time) return counted;
-    for (SubmittedArray const& array : arrays)
-        if (array.job && !array.is_counted) counted.missing.push_back(*array.job);
-    return counted;
+std::unique_ptr<Executor> make_batch_executor(ExecutorInputs const& inputs) {
+    return std::make_unique<BatchExecutor>(inputs);
 }
 
 }  // namespace vibrotrough::campaign

@@ -1,28 +1,27 @@
 #include "campaign/execute/campaign_driver.hpp"
 
 #include "campaign/execute/case_files.hpp"
-#include "campaign/execute/found_case.hpp"
-#include "campaign/schedule/remaining_time.hpp"
+#include "campaign/schedule/forecast.hpp"
 #include "campaign/state/added_cases.hpp"
 #include "campaign/state/campaign_folder.hpp"
+#include "campaign/state/case_state.hpp"
 #include "campaign/state/checkpoint.hpp"
-#include "campaign/state/folder_lock.hpp"
 #include "campaign/state/result_summary.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "deck/estimates.hpp"
 #include "engine/sole_writer.hpp"
 #include "engine/stop_signals.hpp"
 #include "evaluate/case.hpp"
 #include "store/summary.hpp"
 
 #include <algorithm>
-#include <csignal>
+#include <chrono>
 #include <deque>
 #include <map>
 #include <set>
 
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/signal_set.hpp>
 #include <fmt/format.h>
 
 namespace vibrotrough::campaign {
@@ -30,32 +29,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Notices the signals that ask for a stop, which then no longer end the process.
-class StopSignals {
-  public:
-    StopSignals() {
-        engine::add_stop_signals(signals_);
-        wait();
-    }
-    /// How many have come so far.
-    int count() {
-        context_.poll();
-        return count_;
-    }
-
-  private:
-    void wait() {
-        signals_.async_wait([this](auto const& cancelled, int) {
-            if (cancelled) return;
-            ++count_;
-            wait();
-        });
-    }
-
-    boost::asio::io_context context_;
-    boost::asio::signal_set signals_{context_};
-    int count_ = 0;
+/// What the files say of a case before anything is run.
+struct FoundCase {
+    std::optional<FoundSummary> summary = {};  ///< of its result
+    bool is_damaged = false;                   ///< there is a result that cannot be used
+    KnownCase known = {};                      ///< of a case that may go on
+    int attempts = 0;                          ///< failed ones of earlier runs
 };
+
+/// Whether more packings or cycles could still make a result precise or steady, if the policy wants them.
+bool may_go_on(PlannedCase const& planned, store::CaseRecord const& record) {
+    return record.outcome != core::Outcome::finished && planned.scenario().measure.max_packings > 1;
+}
+
+/// Looks at a case. A summary that is missing is written.
+FoundCase look_at(PlannedCase const& planned) {
+    FoundCase found{find_summary(planned)};
+    if (found.summary && found.summary->is_from_result) write_summary(planned, found.summary->record);
+    if (found.summary && !may_go_on(planned, found.summary->record)) return found;
+    std::error_code missing;
+    found.is_damaged = !found.summary && fs::exists(planned.result_file(), missing);
+    found.known = know(planned);
+    if (auto const failure = read_failure(planned)) found.attempts = failure->attempts;
+    return found;
+}
 
 /// What the driver knows of a case.
 struct DrivenCase {
@@ -63,7 +60,7 @@ struct DrivenCase {
     evaluate::EvaluatedPackings evaluated = {};  ///< measured by this process, until the case has its result
     std::set<int> in_hand = {};                  ///< packings that the executor has
     int counted = 0, done = 0;                   ///< packings of it in Progress
-    double expected = 0;                         ///< work of it in the remaining time
+    double expected = 0;                         ///< work that is left of it
     int attempts = 0;                            ///< failed ones of earlier runs
     bool was_repaired = false;                   ///< its packings were found damaged once
     bool has_ended = false;
@@ -108,9 +105,12 @@ class Driver {
     }
 
     void take_stock_of_all() {
-        constexpr std::size_t part = 1024;
+        constexpr std::size_t part = 1024;  // what is known of all cases at once would fill the memory twice
         for (std::size_t begin = 0; begin < plan_.cases.size(); begin += part) {
-            std::vector<FoundCase> found = look_at(plan_, begin, part);
+            std::vector<FoundCase> found(std::min(part, plan_.cases.size() - begin));
+            core::for_each_index(found.size(), cases_per_thread, [&] {
+                return [&](std::size_t i) { found[i] = look_at(plan_.cases[begin + i]); };
+            });
             for (std::size_t i = 0; i < found.size(); ++i)
                 take_stock(plan_.cases[begin + i], std::move(found[i]));
         }
@@ -178,8 +178,11 @@ class Driver {
         double cycles = 0;
         for (auto const& [number, packing] : one.known.packings)
             cycles += static_cast<double>(packing.efficiency.size());
-        double const left = one.known.planned->prepared->work(std::max(0.0, decision.expected - cycles));
-        remaining_time_.expect(left - one.expected);
+        double const settlings =
+            static_cast<double>(decision.wanted.size()) - static_cast<double>(one.known.packings.size());
+        double const left = deck::work_of(*one.known.planned->prepared, std::max(0.0, settlings),
+                                          std::max(0.0, decision.expected - cycles));
+        work_.left += left - one.expected;
         one.expected = left;
     }
 
@@ -195,7 +198,8 @@ class Driver {
         fs::path const folder = planned.packing_folder(packing);
         std::error_code missing;
         bool const runs_here = !executor_.outlives_driver();
-        std::optional<FileLock> lock;  // a task may be at work in the folder
+        if (runs_here) fs::remove(planned.failure_file());  // which means that the last attempt failed
+        std::optional<FileLock> lock;                       // a task may be at work in the folder
         if (runs_here && fs::exists(folder, missing)) lock.emplace(require_packing(planned, packing));
         // A packing that is continued is no longer finished; its checkpoint keeps what is known of it.
         if (one.known.packings.contains(packing)) evaluate::remove_marker(folder);
@@ -230,6 +234,9 @@ class Driver {
         for (PackingOrder const& order : orders_) summary_.again += before_.contains(order.id()) ? 1 : 0;
         summary_.submitted += static_cast<int>(orders_.size());
         std::vector<PackingOrder> const orders = std::exchange(orders_, {});
+        std::vector<PlannedCase const*> cases;
+        for (PackingOrder const& order : orders) cases.push_back(order.planned);
+        write_case_files(std::move(cases));
         if (std::string reference = executor_.submit(orders); !reference.empty())
             summary_.references.push_back(std::move(reference));
     }
@@ -239,9 +246,9 @@ class Driver {
         PlannedCase const& planned = *one.known.planned;
         one.in_hand.erase(ended.id.packing);
         progress_.core_time += ended.core_time;
-        core_time_of_ended_ += ended.core_time;
+        work_.core_time += ended.core_time;
         if (!ended.failure) {
-            remaining_time_.done(planned.prepared->work(ended.cycles), ended.time);
+            add(work_, *planned.prepared, ended.has_settled, ended.cycles);
             take_in(one, ended);
             if (!one.has_ended) decide(one);
         } else if (!one.has_ended && may_retry(ended)) {
@@ -299,15 +306,14 @@ class Driver {
         if (!ended.is_recorded)
             record_failure(planned, ended.id.packing, *ended.failure, ended.message, one.attempts);
         end_case(one);
-        ++progress_.failed;
-        ++summary_.failed;
+        progress_.failed = ++summary_.failed;
         observer_.case_ended(planned, *ended.failure, ended.message);
         add_cases();
     }
 
     void end_case(DrivenCase& one) {
         one.has_ended = true;
-        remaining_time_.expect(-one.expected);
+        work_.left -= one.expected;
         one.expected = 0;
         one.known.packings.clear();
         one.evaluated.clear();
@@ -331,24 +337,27 @@ class Driver {
         }
     }
 
+    static void add(WorkOfRun& work, prepare::PreparedCase const& prepared, bool has_settled, int cycles) {
+        work.done += deck::work_of(prepared, has_settled ? 1 : 0, cycles);
+        work.driven += deck::work_of(prepared, 0, cycles);
+    }
+
     void report() {
         progress_.engines = executor_.running();
         progress_.running = static_cast<int>(progress_.engines.size());
-        progress_.elapsed = remaining_time_.elapsed();
-        double under_way = 0, core_time = 0;
-        PackingTime taken;
+        progress_.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        WorkOfRun work = work_;
         for (RunningPacking const& one : progress_.engines) {
-            under_way += one.planned->prepared->work(one.cycles);
-            taken += one.time;
-            core_time += one.core_time;
+            double const before = work.done;
+            add(work, *one.planned->prepared, one.has_settled, one.cycles);
+            work.left -= work.done - before;
+            work.core_time += one.core_time;
         }
-        int const not_started = std::max(0, progress_.packings - progress_.packings_done - progress_.running);
-        progress_.time_to_go = remaining_time_.seconds(under_way, taken, not_started);
-        // On a busy machine an engine has less than its core.
-        double const cores = (core_time_of_ended_ + core_time) / progress_.elapsed;
-        progress_.core_time_to_go = progress_.time_to_go < 0 ? -1 : progress_.time_to_go * cores;
+        TimeToGo const left = time_to_go(work, progress_.elapsed);
+        progress_.time_to_go = left.wall;
+        progress_.core_time_to_go = left.core;
         Progress shown = progress_;
-        shown.core_time += core_time;
+        shown.core_time += work.core_time - work_.core_time;
         observer_.progressed(shown);
     }
 
@@ -358,14 +367,14 @@ class Driver {
     scenario::RunSettings const& settings_;
     ForeignCommands const& foreign_commands_;
     Observer& observer_;
-    StopSignals signals_;
+    engine::StopSignals signals_;
     std::deque<DrivenCase> cases_;
     std::map<std::string, DrivenCase*> by_id_;
     std::map<PackingId, PackingActivity> before_;  ///< what earlier runs gave to the executor
     std::map<PackingId, int> attempts_;            ///< failed ones of this run
     std::vector<PackingOrder> orders_;             ///< not yet submitted
-    RemainingTime remaining_time_;
-    double core_time_of_ended_ = 0;  ///< s, of the packings that ended in this run
+    std::chrono::steady_clock::time_point const start_ = std::chrono::steady_clock::now();
+    WorkOfRun work_;  ///< but for the packings under way
     Progress progress_;
     Summary summary_;
     bool have_taken_stock_ = false;
@@ -381,7 +390,7 @@ Summary run_campaign(Plan& plan, fs::path const& campaign_file, Policy const& po
     for (PlannedCase const& planned : plan.cases)  // added ones may come from elsewhere
         check_foreign_commands(plan.folder.string(), planned.scenario(), inputs.foreign_commands);
     core::make_folder(plan.folder);
-    FolderLock const lock(plan.folder);
+    FileLock const lock = lock_campaign(plan.folder);
     freeze(plan, campaign_file, inputs.engine);
     refuse_other_executors(plan.folder, kind);
     auto const executor = kind.make(inputs);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "campaign/schedule/remaining_time.hpp"
 #include "campaign/state/overview.hpp"
 #include "campaign/state/plan.hpp"
 #include "core/outcome.hpp"
@@ -30,7 +29,7 @@ struct EndedPacking {
     std::string message;                   ///< why it failed
     int cycles = 0;                        ///< simulated
     double core_time = 0;                  ///< s, processor time of the engine in this run, all ranks
-    PackingTime time = {};                 ///< of this run, where the executor knows it
+    bool has_settled = false;              ///< in this run
     /// What was measured, when this process measured it; otherwise it is read from the packing's folder.
     std::optional<evaluate::EvaluatedPacking> evaluated = {};
     bool is_recorded = false;  ///< failure.json was written already, by the process that ran the packing
@@ -46,9 +45,9 @@ struct RunningPacking {
     double elapsed;                                    ///< s
     double time_to_go;                                 ///< s, negative while unknown
     int ranks;                                         ///< MPI ranks of its engine
-    PackingTime time = {};                             ///< what `elapsed` consists of
-    double silent_for = 0;  ///< s without a new cycle, when that is far more than a cycle took; else 0
-    double core_time = 0;   ///< s, processor time of its engine so far, all ranks
+    bool is_moving = false;                            ///< its trough; it settles before
+    bool has_settled = false;                          ///< in this run, and not before its checkpoint
+    double core_time = 0;                              ///< s, processor time of its engine so far, all ranks
 };
 
 /// Runs packings: on this machine, or on a cluster. An executor knows no policy: it runs what it is given.
@@ -60,7 +59,7 @@ class Executor {
 
     /// Packings of the campaign that this kind of executor was given, by this process or an earlier one, and
     /// that have not been seen to finish. Asked once, at the start.
-    virtual std::vector<PackingActivity> given_before() = 0;
+    virtual std::vector<PackingActivity> given_before() { return {}; }
 
     /// Takes on packings, in this order. The references must outlive the executor.
     /// @return what the user can follow them by, for example "job 4711"; empty when there is nothing of the
@@ -74,25 +73,25 @@ class Executor {
 
     /// Takes over a packing that given_before() reported as waiting or running, so that wait() reports its
     /// end.
-    virtual void adopt(PackingOrder const& order) = 0;
+    virtual void adopt(PackingOrder const& order) { static_cast<void>(order); }
 
     /// Gives up packings of a case that have not started, because the case has failed.
-    virtual void withdraw(PlannedCase const& planned) = 0;
+    virtual void withdraw(PlannedCase const& planned) { static_cast<void>(planned); }
 
     /// Waits a moment, at most about a quarter of a second, and returns the packings that have ended since
     /// the last call.
     /// @throws core::MissingError when no packing can run any more (no engine, no disk)
-    virtual std::vector<EndedPacking> wait() = 0;
+    virtual std::vector<EndedPacking> wait() { return {}; }
 
     /// Whether no packing is left that was given to it.
-    virtual bool is_idle() const = 0;
+    virtual bool is_idle() const { return true; }
 
     /// Asks it to come to an end: packings that cannot go on without this process end as interrupted, at the
     /// first call after the cycle that they are in, at the second at once.
-    virtual void interrupt() = 0;
+    virtual void interrupt() {}
 
     /// The packings that it simulates now, as far as it knows their progress.
-    virtual std::vector<RunningPacking> running() const = 0;
+    virtual std::vector<RunningPacking> running() const { return {}; }
 
     /// Whether packings go on when this process ends. If so, `run` may return when all are submitted.
     virtual bool outlives_driver() const = 0;

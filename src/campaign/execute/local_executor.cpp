@@ -1,14 +1,17 @@
-#include "campaign/execute/local_executor.hpp"
-
 #include "campaign/execute/case_files.hpp"
-#include "campaign/execute/failure_cause.hpp"
+#include "campaign/execute/executors.hpp"
 #include "campaign/execute/packing_run.hpp"
 #include "campaign/execute/ranks.hpp"
-#include "campaign/state/campaign_folder.hpp"
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/limits.hpp"
+#include "evaluate/packing.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <deque>
 #include <list>
 #include <map>
@@ -18,6 +21,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace vibrotrough::campaign {
 namespace {
@@ -25,6 +29,61 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
+
+/// Why the folder takes no more, if it does not: tried, because free space alone says nothing about quotas.
+std::optional<std::string> full_disk(fs::path const& folder) {
+    fs::path const probe = folder / fmt::format(".probe-{}", ::getpid());
+    std::optional<std::string> reason;
+    try {
+        core::write_file_atomically(probe, std::string(256 << 10, 'x'));
+    } catch (core::DiskFullError const& error) {
+        reason = error.what();
+    } catch (core::MissingError const&) {
+        // Not full, but the folder is gone or may not be written to.
+    }
+    std::error_code missing;
+    fs::remove(probe, missing);
+    return reason;
+}
+
+/// How many processes the kernel of this machine has killed for want of memory so far; 0 where it does not
+/// say.
+long count_memory_kills() {
+    try {
+        std::string const counts = core::read_file("/proc/vmstat");
+        constexpr std::string_view name = "\noom_kill ";
+        auto const at = counts.find(name);
+        return at == std::string::npos ? 0 : std::strtol(counts.c_str() + at + name.size(), nullptr, 10);
+    } catch (core::MissingError const&) {
+        return 0;  // another kernel
+    }
+}
+
+/// Finds the cause behind a packing's failure: a full disk leaves the engine silent, lack of memory shows as
+/// a signal, and a simulation that diverged as a wrong number. Adds how far the run had come.
+/// @param memory_kills  count_memory_kills() from before the run
+PackingEnd find_cause(PlannedCase const& planned, int packing, PackingEnd end, long memory_kills) {
+    if (!end.failure || end.failure == core::Outcome::interrupted || end.failure == core::Outcome::disk_full)
+        return end;  // it is known already
+    fs::path const folder = planned.packing_folder(packing);
+    evaluate::RunExtent const extent = evaluate::extent_of_run(*planned.prepared, folder);
+    if (end.signal == SIGKILL && count_memory_kills() > memory_kills) {
+        end.failure = core::Outcome::out_of_memory;
+    } else if (auto const reason = full_disk(planned.folder);
+               reason && end.failure != core::Outcome::out_of_memory) {
+        end.failure = core::Outcome::disk_full;
+        end.message = fmt::format("{} takes no more ({})", folder.string(), *reason);
+    } else if (end.signal == SIGXFSZ) {
+        end.failure = core::Outcome::disk_full;
+        end.message = fmt::format("a file of {} cannot grow ({})", folder.string(), core::reason_of(EFBIG));
+    } else if (extent.diverged) {
+        end.failure = core::Outcome::diverged;
+        end.message =
+            fmt::format("cycles.csv holds a NaN or a speed above 100 times the trough's ({})", end.message);
+    }
+    end.message += fmt::format(" [packing {}, after {} cycles]", packing, extent.cycles);
+    return end;
+}
 
 /// A packing that runs.
 struct Running {
@@ -54,8 +113,6 @@ class LocalExecutor : public Executor {
         queue_.insert(queue_.end(), orders.begin(), orders.end());
         return {};
     }
-
-    void adopt(PackingOrder const&) override {}  // it reports none
 
     void withdraw(PlannedCase const& planned) override {
         std::erase_if(queue_, [&](PackingOrder const& order) { return order.planned == &planned; });
@@ -88,7 +145,7 @@ class LocalExecutor : public Executor {
             int const cycles = one.run->cycles(), wanted = one.order.packing.cycles;
             double const to_go = cycles > 0 ? one.run->seconds_per_cycle() * (wanted - cycles) : -1;
             shown.push_back({one.order.planned, one.order.packing.number, cycles, wanted, one.run->estimate(),
-                             one.elapsed(), to_go, one.ranks, one.run->time(), one.run->silent_for(),
+                             one.elapsed(), to_go, one.ranks, one.run->is_moving(), one.run->has_settled(),
                              one.run->core_time()});
         }
         return shown;
@@ -130,12 +187,10 @@ class LocalExecutor : public Executor {
 
     void start(PackingOrder const& order, int ranks) {
         PlannedCase const& planned = *order.planned;
-        write_case_files(planned);
-        fs::remove(planned.failure_file());  // the file means that the last attempt failed
         running_.push_back({order, ranks, count_memory_kills()});
         auto const place = std::prev(running_.end());
         try {
-            place->lock.emplace(require_packing(planned, order.packing.number));
+            if (!inputs_.holds_lock) place->lock.emplace(require_packing(planned, order.packing.number));
             place->run =
                 std::make_unique<PackingRun>(context_, engine_with(ranks), settled_, planned, order.packing,
                                              [this, place](PackingEnd const& end) { ended(place, end); });
@@ -160,9 +215,12 @@ class LocalExecutor : public Executor {
                    fmt::format("not finished after {:.0f} s", inputs_.settings.time_limit.value_or(0))};
         }
         end = find_cause(*order.planned, order.packing.number, end, place->memory_kills);
-        EndedPacking result{
-            order.id(),        end.failure, end.message, place->run->cycles(), place->run->core_time(),
-            place->run->time()};
+        EndedPacking result{order.id(),
+                            end.failure,
+                            end.message,
+                            place->run->cycles(),
+                            place->run->core_time(),
+                            place->run->has_settled()};
         if (!end.failure) result.evaluated = place->run->take_evaluated();
         // The run is in the middle of its own call: it is destroyed after it has returned.
         boost::asio::post(context_, [run = std::shared_ptr<PackingRun>(std::move(place->run))] {});

@@ -5,7 +5,6 @@
 #include "core/hash.hpp"
 #include "core/time.hpp"
 #include "core/version.hpp"
-#include "engine/binary_watch.hpp"
 #include "engine/run_report.hpp"
 #include "engine/sole_writer.hpp"
 
@@ -124,8 +123,6 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
     stop_ = packing_.next_stop(sealed_cycle_);
     core::replace_file(folder_ / deck::control_file, deck::control_until(stop_));
     start_ = std::chrono::steady_clock::now();
-    settled_at_ = settled_at_.value_or(start_);
-    last_cycle_at_ = earlier_wall_time_;
     process_ = std::make_unique<engine::EngineProcess>(
         context_, engine_, folder_,
         [this](engine::ExitStatus status) {
@@ -141,13 +138,6 @@ double PackingRun::wall_time() const {
 
 double PackingRun::seconds_per_cycle() const {
     return process_ && cycles_ > 0 ? wall_time() / cycles_ : 0;
-}
-
-PackingTime PackingRun::time() const {
-    auto const now = std::chrono::steady_clock::now();
-    auto const settled_at = settled_at_.value_or(now);
-    return {std::chrono::duration<double>(settled_at - created_).count(),
-            std::chrono::duration<double>(now - settled_at).count(), has_settled_ ? 1 : 0};
 }
 
 double PackingRun::core_time() const {
@@ -174,7 +164,6 @@ void PackingRun::inspect() {
     seen_size_ = size;
     try {
         auto const interim = evaluate::estimate_so_far(*planned_.prepared, folder_);
-        if (interim.cycles != cycles_) last_cycle_at_ = wall_time();
         cycles_ = interim.cycles;
         if (interim.estimate) estimate_ = interim.estimate;
     } catch (core::InputError const&) {
@@ -193,12 +182,6 @@ void PackingRun::interrupt(Stop stop) {
     }
 }
 
-double PackingRun::silent_for() const {
-    if (!process_ || cycles_ <= 0) return 0;
-    double const silent = wall_time() - last_cycle_at_;
-    return silent > std::max(60.0, 20 * last_cycle_at_ / cycles_) ? silent : 0;
-}
-
 /// Continues a run that has paused at its checkpoint; why it cannot, if so.
 std::optional<PackingEnd> PackingRun::go_on() {
     seal();
@@ -215,7 +198,7 @@ std::optional<PackingEnd> PackingRun::go_on() {
 
 std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
     core_time_ = status.core_time;
-    if (engine_.watch) engine_.watch->check();
+    require_unchanged(engine_);
     engine::RunReport const report = engine::examine_run(folder_, status, engine::Stage::driving);
     bool const is_over = interrupted_ || report.failure || stop_ >= packing_.cycles;
     // The policy may want more cycles of this packing, which then continue from its end.

@@ -51,14 +51,13 @@ class PackingRun {
     PlannedCase const& planned() const { return planned_; }
     /// Cycles seen so far.
     int cycles() const { return cycles_; }
-    /// s since the last cycle, when that is more than a minute and more than 20 times what a cycle took: the
-    /// engine is stopped, or the machine does something else. 0 otherwise, and before a cycle is known.
-    double silent_for() const;
     /// s on the moving trough, also before the last checkpoint, over the cycles seen so far; 0 before the
     /// first.
     double seconds_per_cycle() const;
-    /// What this run has taken.
-    PackingTime time() const;
+    /// Whether its trough moves.
+    bool is_moving() const { return process_ != nullptr; }
+    /// Whether it has settled in this run, and not before its checkpoint.
+    bool has_settled() const { return has_settled_; }
     /// s, processor time of the engine in this run, all ranks.
     double core_time() const;
 
@@ -88,9 +87,7 @@ class PackingRun {
     std::function<void(PackingEnd const&)> on_end_;
     std::filesystem::path folder_;
     deck::Deck deck_;
-    std::chrono::steady_clock::time_point const created_ = std::chrono::steady_clock::now();
-    std::optional<std::chrono::steady_clock::time_point> settled_at_;  ///< when the trough first moved
-    bool has_settled_ = false;  ///< in this run, and not before its checkpoint
+    bool has_settled_ = false;
     std::chrono::steady_clock::time_point start_;
     double earlier_wall_time_ = 0;    ///< s, of the engine before the checkpoint
     double earlier_core_time_ = 0;    ///< s, the same of its processor time
@@ -99,8 +96,7 @@ class PackingRun {
     std::string started_;
     std::string engine_certificate_;
     int cycles_ = 0;
-    double last_cycle_at_ = 0;  ///< s, `wall_time` when the last was seen or the engine started
-    int stop_ = 0;              ///< cycle after which the engine ends
+    int stop_ = 0;  ///< cycle after which the engine ends
     std::optional<measure::PackingEstimate> estimate_;
     std::optional<evaluate::EvaluatedPacking> evaluated_;
     int sealed_cycle_ = 0;

@@ -7,7 +7,6 @@
 #include "core/hash.hpp"
 #include "core/time.hpp"
 #include "deck/deck.hpp"
-#include "engine/binary_watch.hpp"
 #include "engine/run_report.hpp"
 #include "engine/sole_writer.hpp"
 
@@ -174,7 +173,7 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
     settling_.erase(key);
     boost::asio::post(context_, [settling] {});  // the process is in the middle of its own call
     Settled settled{core::Outcome::interrupted, "the settling was interrupted"};
-    if (engine_.watch && !settling->interrupted) engine_.watch->check();
+    if (!settling->interrupted) require_unchanged(engine_);
     try {
         if (!settling->interrupted) settled = judge(settling->folder, status, settling->weight);
     } catch (core::DiskFullError const& error) {

@@ -1,25 +1,104 @@
-#include "campaign/execute/scheduler.hpp"
-#include "campaign/execute/scheduler_call.hpp"
+#include "campaign/execute/slurm.hpp"
+
+#include "core/error.hpp"
 #include "core/text.hpp"
 
 #include <algorithm>
 #include <array>
-#include <set>
-#include <string>
+#include <charconv>
+#include <future>
+#include <sstream>
 
+#include <boost/process.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace vibrotrough::campaign {
 namespace {
 
-CallAnswer call(std::vector<std::string> words) {
-    return call_scheduler("Slurm", std::move(words));
+namespace bp = boost::process;
+
+/// What a command of Slurm answered.
+struct Answer {
+    int code;
+    std::string output, errors;
+
+    bool complains_of(std::string_view text) const { return errors.find(text) != std::string::npos; }
+    /// Its first line of errors or, where it has none, of output.
+    std::string words() const {
+        std::string const& text = errors.empty() ? output : errors;
+        return text.substr(0, text.find('\n')).substr(0, 300);
+    }
+};
+
+/// Runs a command to its end, a minute at most. No shell reads the words.
+Answer call(std::vector<std::string> words) {
+    auto const program = bp::search_path(words.front());
+    if (program.empty()) {
+        throw core::MissingError(fmt::format(
+            "there is no {} here; run where Slurm is installed, or write executor = \"local\" under [run]",
+            words.front()));
+    }
+    words.front() = program.string();
+    words.insert(words.begin(), "60");
+    try {
+        boost::asio::io_context context;
+        std::future<std::string> output, errors;
+        bp::child child(bp::search_path("timeout"), bp::args(words), bp::std_in<bp::null, bp::std_out> output,
+                        bp::std_err > errors, context);
+        context.run();
+        child.wait();
+        return {child.exit_code(), core::harmless(output.get()), core::harmless(errors.get())};
+    } catch (bp::process_error const& error) {
+        throw core::MissingError(fmt::format("cannot start {} ({})", words[1], error.code().message()));
+    }
+}
+
+/// A question that must be answered.
+std::string output_of(std::vector<std::string> words) {
+    Answer const answer = call(std::move(words));
+    if (answer.code == 0) return answer.output;
+    throw core::MissingError(
+        fmt::format("Slurm does not answer ({}); try again when it does", answer.words()));
+}
+
+/// The lines of a table, split at the separator, without the spaces around the parts.
+std::vector<std::vector<std::string>> rows_of(std::string const& table, char separator) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(table);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream text(line);
+        auto& parts = rows.emplace_back();
+        for (std::string part; std::getline(text, part, separator);) parts.emplace_back(core::trimmed(part));
+    }
+    return rows;
+}
+
+/// The whole text as a number; nothing when it is not one.
+std::optional<long> number_in(std::string_view text) {
+    long number = 0;
+    auto const [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (failure != std::errc() || end != text.data() + text.size()) return {};
+    return number;
+}
+
+/// "[days-][[hours:]minutes:]seconds"; any other text means that there is no limit.
+std::optional<long> minutes_in(std::string const& text) {
+    auto const dash = text.find('-');
+    long const days = dash == std::string::npos ? 0 : number_in(text.substr(0, dash)).value_or(0);
+    long seconds = 0;
+    auto const rows = rows_of(dash == std::string::npos ? text : text.substr(dash + 1), ':');
+    for (std::string const& part : rows.empty() ? std::vector<std::string>{""} : rows.front()) {
+        auto const number = number_in(part);
+        if (!number) return {};
+        seconds = 60 * seconds + *number;
+    }
+    return days * 24 * 60 + seconds / 60;
 }
 
 std::optional<long> find_by_name(std::string const& name) {
-    CallAnswer const answer = call_or_throw("Slurm", {"squeue", "-h", "-t", "all", "-n", name, "-o", "%F"});
-    return number_in<long>(answer.output.substr(0, answer.output.find('\n')));
+    std::string const output = output_of({"squeue", "-h", "-t", "all", "-n", name, "-o", "%F"});
+    return number_in(output.substr(0, output.find('\n')));
 }
 
 TaskReport report_of(std::string const& state, std::string const& reason, std::string const& task) {
@@ -44,39 +123,31 @@ void read(std::string const& output, std::map<long, std::string> const& names, T
     for (auto const& row : rows_of(output, '|')) {
         if (row.size() < 2) continue;
         auto const gap = std::min(row[0].find('_'), row[0].size());
-        auto const job = number_in<long>(row[0].substr(0, gap));
-        auto const index = number_in<int>(row[0].substr(std::min(gap + 1, row[0].size())));
+        auto const job = number_in(row[0].substr(0, gap));
+        auto const index = number_in(row[0].substr(std::min(gap + 1, row[0].size())));
         if (!job || !index || !names.contains(*job)) continue;
         // "CANCELLED by 0": the first word is the state.
         std::string const state = row[1].substr(0, row[1].find(' '));
         std::string const reason = row.size() > 2 ? row[2] : "";
-        reports.insert({{names.at(*job), *index}, report_of(state, reason, row[0])});
+        reports.insert({{names.at(*job), static_cast<int>(*index)}, report_of(state, reason, row[0])});
     }
+}
+
+std::string ids_of(std::map<long, std::string> const& names) {
+    std::vector<long> ids;
+    for (auto const& [id, name] : names) ids.push_back(id);
+    return fmt::format("{}", fmt::join(ids, ","));
 }
 
 /// @return whether the controller answers
 bool squeue(std::map<long, std::string> const& names, TaskReports& reports) {
-    std::string const jobs = ids_of(names);
-    CallAnswer const answer = call({"squeue", "-h", "-r", "-t", "all", "-j", jobs, "-o", "%F_%K|%T|%r"});
+    Answer const answer = call({"squeue", "-h", "-r", "-t", "all", "-j", ids_of(names), "-o", "%F_%K|%T|%r"});
     if (answer.code == 0) read(answer.output, names, reports);
     if (answer.code == 0) return true;
     // A purged id is an error of its own; anything else means that the controller does not answer.
-    if (!answer.complains_of({"Invalid job id"})) return false;
+    if (!answer.complains_of("Invalid job id")) return false;
     // Whether the other jobs were answered for is not certain: one by one.
     return names.size() == 1 || std::ranges::all_of(names, [&](auto& one) { return squeue({one}, reports); });
-}
-
-std::optional<TaskReports> ask(std::vector<SubmittedArray>& arrays) {
-    auto const names = name_by_id(arrays, find_by_name);
-    TaskReports reports;
-    if (names.empty()) return reports;
-    if (!squeue(names, reports)) return {};
-    if (!has_command("sacct")) return reports;
-    std::string const jobs = ids_of(names);
-    // Fails where there is no accounting; then nothing more is known.
-    CallAnswer const past = call({"sacct", "-n", "-P", "-X", "-a", "-j", jobs, "-o", "JobID,State,Reason"});
-    if (past.code == 0) read(past.output, names, reports);
-    return reports;
 }
 
 std::vector<std::string> submission(JobArray const& array) {
@@ -103,74 +174,71 @@ void check_time(scenario::BatchSettings const& asked) {
         if (row.size() != 2) continue;
         bool const is_default = row[0].ends_with('*');
         std::string const name = row[0].substr(0, row[0].size() - (is_default ? 1 : 0));
-        if (asked.partition ? asked.partition->str() == name : is_default)
-            check_time_limit("run.slurm", "Slurm's partition " + name, row[1], asked);
+        if (!(asked.partition ? asked.partition->str() == name : is_default)) continue;
+        auto const most = minutes_in(row[1]);
+        if (!asked.minutes || !most || *asked.minutes <= *most) continue;
+        throw core::MissingError(fmt::format(
+            "Slurm's partition {} has a limit of {} minutes, and run.slurm.time asks for {}{}; ask for less, "
+            "or for another partition",
+            name, *most, *asked.minutes,
+            asked.minutes_per_task ? " for the largest task of several packings" : ""));
     }
 }
 
 int most_array_tasks() {
-    for (auto const& row : rows_of(call_or_throw("Slurm", {"scontrol", "show", "config"}).output, '=')) {
-        if (row.size() != 2 || row[0] != "MaxArraySize") continue;
+    for (auto const& row : rows_of(output_of({"scontrol", "show", "config"}), '=')) {
         // MaxArraySize is one more than the largest index.
-        return std::clamp(number_in<int>(core::trimmed(row[1])).value_or(1001) - 1, 1, 100'000);
+        if (row.size() == 2 && row[0] == "MaxArraySize")
+            return static_cast<int>(std::clamp(number_in(row[1]).value_or(1001) - 1, 1L, 100'000L));
     }
     return 1000;
 }
 
-Submission submit(JobArray const& array) {
+}  // namespace
+
+std::optional<TaskReports> ask_slurm(std::vector<SubmittedArray>& arrays) {
+    std::map<long, std::string> names;
+    for (SubmittedArray& array : arrays) {
+        if (!array.job) array.job = find_by_name(array.name);
+        if (array.job) names.emplace(*array.job, array.name);
+    }
+    TaskReports reports;
+    if (names.empty()) return reports;
+    if (!squeue(names, reports)) return {};
+    if (bp::search_path("sacct").empty()) return reports;
+    // Fails where there is no accounting; then nothing more is known.
+    Answer const past =
+        call({"sacct", "-n", "-P", "-X", "-a", "-j", ids_of(names), "-o", "JobID,State,Reason"});
+    if (past.code == 0) read(past.output, names, reports);
+    return reports;
+}
+
+Submission submit_to_slurm(JobArray const& array) {
     if (int const most = most_array_tasks(); array.tasks > most) return {{}, most};
     check_time(array.settings);
-    // Slurm keeps MaxJobCount jobs, each task of an array counts as one, and one that has ended counts until
-    // MinJobAge has passed. sbatch --test-only says the first of these texts, sbatch itself the second.
-    auto const has_no_room = [](CallAnswer const& answer) {
-        return answer.complains_of({"Resource temporarily unavailable", "temporarily unable to accept job"});
-    };
     std::vector<std::string> words = submission(array);
     words.insert(words.begin() + 1, "--test-only");
-    CallAnswer answer = call(words);
+    Answer answer = call(words);
     bool const is_taken = answer.code == 0;
     words.erase(words.begin() + 1);
     if (is_taken) answer = call(words);
-    auto const job = number_in<long>(answer.output.substr(0, answer.output.find_first_of(";\n")));
+    auto const job = number_in(answer.output.substr(0, answer.output.find_first_of(";\n")));
     if (is_taken && answer.code == 0 && job) return {job, {}};
-    // sbatch tries again by itself, and may have been ended by our time limit just after it succeeded.
-    if (has_no_room(answer)) return {is_taken ? find_by_name(array.name) : std::nullopt, {}};
-    throw refusal("Slurm", answer, "[run.slurm] in the campaign file, and sinfo for what there is");
+    // Slurm keeps MaxJobCount jobs, each task of an array counts as one, and one that has ended counts until
+    // MinJobAge has passed. sbatch --test-only says the first of these texts, sbatch itself the second. It
+    // tries again by itself, and may have been ended by our time limit just after it succeeded.
+    if (answer.complains_of("Resource temporarily unavailable") ||
+        answer.complains_of("temporarily unable to accept job"))
+        return {is_taken ? find_by_name(array.name) : std::nullopt, {}};
+    throw core::MissingError(
+        fmt::format("Slurm does not take the job ({}); see [run.slurm] in the campaign "
+                    "file, and sinfo for what there is",
+                    answer.words()));
 }
 
-void cancel(SubmittedArray const& array, std::vector<int> const& tasks) {
+void cancel_in_slurm(SubmittedArray const& array, std::vector<int> const& tasks) {
     if (array.job)
         call({"scancel", "--state=PENDING", fmt::format("{}_[{}]", *array.job, fmt::join(tasks, ","))});
 }
-
-/// -D: also what a task took before it was queued again.
-std::optional<double> count_core_time(std::vector<SubmittedArray>& arrays) {
-    auto const names = name_by_id(arrays, find_by_name);
-    if (names.empty()) return 0;
-    if (!has_command("sacct")) return {};
-    CallAnswer const answer =
-        call({"sacct", "-n", "-P", "-X", "-a", "-D", "-j", ids_of(names), "-o", "JobID,JobName,CPUTimeRAW"});
-    if (answer.code != 0) return {};
-    std::optional<double> sum;
-    std::set<std::string> known;
-    for (auto const& row : rows_of(answer.output, '|')) {
-        if (row.size() != 3) continue;
-        // Numbers of jobs may begin anew, so that a job of somebody else may have had the same one.
-        auto const job = number_in<long>(row[0].substr(0, row[0].find('_')));
-        auto const name = job ? names.find(*job) : names.end();
-        if (name == names.end() || name->second != row[1]) continue;
-        sum = sum.value_or(0) + static_cast<double>(number_in<long>(row[2]).value_or(0));
-        known.insert(row[1]);
-    }
-    for (SubmittedArray& array : arrays) array.is_counted = known.contains(array.name);
-    return sum;
-}
-
-}  // namespace
-
-constexpr Requeueing again{"--requeue", "--signal=B:USR1@", "scontrol requeue ${SLURM_ARRAY_JOB_ID}_$index"};
-constinit Scheduler const slurm{
-    "slurm", "Slurm",        "${SLURM_ARRAY_TASK_ID:?}", "$SLURM_ARRAY_JOB_ID", again, submit, ask,
-    cancel,  count_core_time};
 
 }  // namespace vibrotrough::campaign

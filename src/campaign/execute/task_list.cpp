@@ -1,9 +1,13 @@
 #include "campaign/execute/task_list.hpp"
 
+#include "campaign/execute/case_files.hpp"
+#include "campaign/execute/executors.hpp"
 #include "campaign/execute/ranks.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "deck/estimates.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -31,12 +35,9 @@ std::optional<Task> parse_task(std::string const& line) {
 }  // namespace
 
 Task read_task(fs::path const& task_list, int index) {
-    std::istringstream lines(core::read_file(task_list, core::largest_note));
-    std::string line;
-    for (int i = 0; i <= index && std::getline(lines, line); ++i) {
-        if (i < index) continue;
-        if (auto const task = parse_task(line)) return *task;
-    }
+    auto const tasks = read_task_list(task_list);
+    if (tasks && index >= 0 && static_cast<std::size_t>(index) < tasks->size())
+        return (*tasks)[static_cast<std::size_t>(index)];
     throw core::InputError(
         fmt::format("{} has no task with index {}; give a list that 'vibrotrough run' or "
                     "'vibrotrough prepare' made",
@@ -71,7 +72,7 @@ double expected_time(PackingOrder const& order, TaskSize const& size) {
     double const share = static_cast<double>(scenario.layer.grains) / size.ranks;
     // Where nothing was measured, several ranks are not counted upon.
     double const cores = size.ranks > 1 ? std::max(1.0, size.ranks * parallel_efficiency(share)) : 1.0;
-    return order.planned->prepared->work(cycles) / (size.speed * cores);
+    return deck::work_of(*order.planned->prepared, 1, cycles) / (size.speed * cores);
 }
 
 std::vector<Task> make_tasks(std::vector<PackingOrder> const& orders, TaskSize const& size) {
@@ -92,6 +93,47 @@ std::vector<Task> make_tasks(std::vector<PackingOrder> const& orders, TaskSize c
         filled += time;
     }
     return tasks;
+}
+
+namespace {
+
+class TaskListExecutor : public Executor {
+  public:
+    explicit TaskListExecutor(ExecutorInputs const& inputs) : inputs_(inputs) {}
+
+    /// Another scheduler cannot be asked; what a process works on now has a lock.
+    std::string submit(std::vector<PackingOrder> const& orders) override {
+        std::vector<char> is_free(orders.size());
+        core::for_each_index(orders.size(), cases_per_thread, [&] {
+            return [&](std::size_t i) {
+                is_free[i] = lock_packing(*orders[i].planned, orders[i].packing.number) ? 1 : 0;
+            };
+        });
+        std::vector<PackingOrder> free;
+        for (std::size_t i = 0; i < orders.size(); ++i)
+            if (is_free[i] != 0) free.push_back(orders[i]);
+        scenario::RunSettings const& settings = inputs_.settings;
+        std::vector<Task> const tasks =
+            make_tasks(free, {inputs_.task_duration, inputs_.speed, settings.ranks.value_or(1)});
+        core::write_file_atomically(inputs_.task_list, write_task_list(tasks));
+        std::size_t const busy = orders.size() - free.size();
+        std::string text = fmt::format("{} task{} in {}", tasks.size(), tasks.size() == 1 ? "" : "s",
+                                       inputs_.task_list.string());
+        if (busy > 0)
+            text += fmt::format(", without {} packing{} being simulated now", busy, busy == 1 ? "" : "s");
+        return text;
+    }
+
+    bool outlives_driver() const override { return true; }
+
+  private:
+    ExecutorInputs inputs_;
+};
+
+}  // namespace
+
+std::unique_ptr<Executor> make_task_list_executor(ExecutorInputs const& inputs) {
+    return std::make_unique<TaskListExecutor>(inputs);
 }
 
 }  // namespace vibrotrough::campaign

@@ -31,7 +31,7 @@ struct TaskSize {
     int engines = 1;                 ///< that the task runs at the same time
 };
 
-/// Seconds that a packing will probably take, without settling.
+/// Seconds that a packing will probably take.
 double expected_time(PackingOrder const& order, TaskSize const& size);
 
 /// Puts packings into tasks, in their order: a task takes further packings as long as it is expected to end

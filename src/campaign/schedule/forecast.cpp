@@ -8,8 +8,6 @@
 namespace vibrotrough::campaign {
 namespace {
 
-/// Grain-steps per second and core: LIGGGHTS 3.8.0 with 600 to 5000 grains.
-constexpr double assumed_speed = 5e6;
 /// Scatter, as a natural logarithm, of a case's cost about the forecast, before there are results.
 constexpr double unknown_scatter = 0.55;
 /// The machine is never known better than this.
@@ -32,7 +30,7 @@ Learned learn(std::vector<CaseOverview> const& cases) {
     std::vector<double> deviations;
     for (CaseOverview const& one : cases) {
         if (!one.result || one.result->packings == 0) continue;
-        work += one.planned->prepared->work(one.result->cycles);
+        work += deck::work_of(*one.planned->prepared, 0, one.result->cycles);
         time += one.result->core_time;
         cycles += one.result->cycles;
         packings += one.result->packings;
@@ -80,12 +78,12 @@ Forecast forecast(std::vector<CaseOverview> const& cases) {
     Learned const learned = learn(cases);
     Forecast result;
     result.results = static_cast<int>(learned.ratios.size());
-    result.speed = learned.speed > 0 ? learned.speed : assumed_speed;
+    result.speed = learned.speed > 0 ? learned.speed : deck::usual_speed;
     int missing_cases = 0;
     for (CaseOverview const& one : cases) {
         result.packings.push_back(packings_of(one, learned));
         int const missing = one.result ? 0 : result.packings.back() - one.packings_done;
-        result.cases.push_back(missing * deck::expected_work(*one.planned->prepared, learned.experience) /
+        result.cases.push_back(deck::expected_work(*one.planned->prepared, missing, learned.experience) /
                                result.speed);
         result.core_time += result.cases.back();
         missing_cases += missing > 0 ? 1 : 0;
@@ -96,6 +94,13 @@ Forecast forecast(std::vector<CaseOverview> const& cases) {
     double const of_missing = scatter / std::sqrt(missing_cases);
     result.uncertainty = std::exp(2 * std::hypot(least_scatter, of_what_is_learned, of_missing));
     return result;
+}
+
+TimeToGo time_to_go(WorkOfRun const& work, double elapsed) {
+    if (work.done <= 0 || elapsed < 1) return {};
+    double const left = std::max(0.0, work.left);
+    double const speed = work.core_time > 0 ? work.driven / work.core_time : 0;
+    return {left / work.done * elapsed, left / (speed > 0 ? speed : deck::usual_speed)};
 }
 
 }  // namespace vibrotrough::campaign

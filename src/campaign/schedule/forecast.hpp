@@ -29,4 +29,22 @@ struct Forecast {
 /// them, in logarithms: for the mean of the missing cases, and for what is learned from the results.
 Forecast forecast(std::vector<CaseOverview> const& cases);
 
+/// What a run has done and what is left of it, by the same rule (deck::work_of).
+struct WorkOfRun {
+    double left = 0;       ///< of the packings that are wanted and those that will probably follow
+    double done = 0;       ///< in this run, by packings that have ended and by those under way
+    double driven = 0;     ///< the same without their settling
+    double core_time = 0;  ///< s, that the engines took for what was driven
+};
+
+/// How long a run will probably still take; negative while that is not known.
+struct TimeToGo {
+    double wall = -1;  ///< s, as many cores as so far
+    double core = -1;  ///< s of a core
+};
+
+/// From what was done so far, at the speed of this run.
+/// @param elapsed  s
+TimeToGo time_to_go(WorkOfRun const& work, double elapsed);
+
 }  // namespace vibrotrough::campaign

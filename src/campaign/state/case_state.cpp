@@ -81,6 +81,16 @@ std::vector<int> finished_packings(PlannedCase const& planned) {
     return finished;
 }
 
+std::map<int, int> cycles_under_way(PlannedCase const& planned) {
+    std::map<int, int> found;
+    for (int const packing : started_packings(planned)) {
+        fs::path const folder = planned.packing_folder(packing);
+        if (!evaluate::has_marker(folder))
+            found[packing] = evaluate::extent_of_run(*planned.prepared, folder).cycles;
+    }
+    return found;
+}
+
 KnownPackings read_known_packings(PlannedCase const& planned) {
     KnownPackings known;
     prepare::PreparedCase const& prepared = *planned.prepared;

@@ -29,6 +29,9 @@ std::vector<int> started_packings(PlannedCase const& planned);
 /// Numbers of the packings that are finished (marker and files belong together), in order.
 std::vector<int> finished_packings(PlannedCase const& planned);
 
+/// Cycles so far of the packings that were started and have not ended, by number.
+std::map<int, int> cycles_under_way(PlannedCase const& planned);
+
 /// The cycles of a packing that later runs do not change any more.
 struct KnownPacking {
     std::vector<double> efficiency;  ///< velocity efficiency of each cycle

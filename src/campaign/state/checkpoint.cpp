@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,7 @@ using core::note::Json;
 /// The tables of a run whose rows begin with their step.
 constexpr char const* tables[] = {"cycles.csv", "phases.csv", "dump/frames.csv"};
 
+/// The number with which a line begins, if nothing or a comma follows.
 std::optional<long> leading_number(std::string_view line) {
     long number = 0;
     auto const [end, failure] = std::from_chars(line.data(), line.data() + line.size(), number);
@@ -28,39 +30,23 @@ std::optional<long> leading_number(std::string_view line) {
     return number;
 }
 
-/// Whole lines, each with its end.
+/// The whole lines of a text, without their ends.
 std::vector<std::string_view> whole_lines(std::string_view text) {
     std::vector<std::string_view> lines;
-    for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
-        lines.push_back(text.substr(0, end + 1));
-        text.remove_prefix(end + 1);
-    }
+    for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos; text.remove_prefix(end + 1))
+        lines.push_back(text.substr(0, end));
     return lines;
-}
-
-std::string_view without_end(std::string_view line) {
-    line.remove_suffix(1);
-    return line;
 }
 
 std::string rows_up_to(std::string const& text, long step) {
     std::string kept;
-    for (std::string_view const line : whole_lines(text)) {
-        auto const number = leading_number(without_end(line));
-        if (!number || *number <= step) kept += line;
-    }
+    for (std::string_view const line : whole_lines(text))
+        if (leading_number(line).value_or(step) <= step) kept.append(line) += '\n';
     return kept;
 }
 
 bool has_row(std::string const& text, long step) {
-    for (std::string_view const line : whole_lines(text)) {
-        if (leading_number(without_end(line)) == step) return true;
-    }
-    return false;
-}
-
-std::string digest_of_drive(std::string const& content) {
-    return core::sha256_hex(content);
+    return std::ranges::any_of(whole_lines(text), [&](auto line) { return leading_number(line) == step; });
 }
 
 std::optional<long> number_between(std::string_view name, std::string_view start, std::string_view end) {
@@ -90,7 +76,7 @@ std::optional<Checkpoint> find_checkpoint(fs::path const& folder, std::string co
         if (!fs::is_regular_file(folder / checkpoint_seal)) return {};
         auto const [checkpoint, restart, deck] =
             parse_checkpoint(core::read_file(folder / checkpoint_seal, core::largest_note));
-        bool const known = checkpoint_cycle(checkpoint.file) && deck == digest_of_drive(drive) &&
+        bool const known = checkpoint_cycle(checkpoint.file) && deck == core::sha256_hex(drive) &&
                            restart == core::sha256_hex(core::read_file(folder / checkpoint.file));
         if (known && has_row(core::read_file(folder / "cycles.csv"),
                              static_cast<long>(checkpoint.cycle) * steps_per_cycle))
@@ -109,7 +95,7 @@ std::optional<int> last_checkpoint(fs::path const& folder) {
     std::string const list = core::read_file(folder / deck::checkpoint_list, core::largest_note);
     auto const lines = whole_lines(list);
     if (lines.empty()) return {};
-    auto const cycle = leading_number(without_end(lines.back()));
+    auto const cycle = leading_number(lines.back());
     return cycle ? std::optional(static_cast<int>(*cycle)) : std::nullopt;
 }
 
@@ -117,7 +103,7 @@ void seal_checkpoint(fs::path const& folder, deck::Deck const& deck, Checkpoint 
     Json const seal{{"cycle", checkpoint.cycle},
                     {"file", checkpoint.file},
                     {"restart_sha256", core::sha256_hex(core::read_file(folder / checkpoint.file))},
-                    {"deck_sha256", digest_of_drive(deck.files.at(deck::drive_file))},
+                    {"deck_sha256", core::sha256_hex(deck.files.at(deck::drive_file))},
                     {"started", checkpoint.started},
                     {"wall_time", checkpoint.wall_time},
                     {"core_time", checkpoint.core_time}};

@@ -29,6 +29,11 @@ struct flock whole_file() {
     return lock;
 }
 
+[[noreturn]] void refuse(std::filesystem::path const& path) {
+    throw core::MissingError(fmt::format("cannot lock {} ({}); choose a file system that knows locks",
+                                         path.string(), std::strerror(errno)));
+}
+
 }  // namespace
 
 std::optional<FileLock> FileLock::take(std::filesystem::path const& path) {
@@ -36,18 +41,14 @@ std::optional<FileLock> FileLock::take(std::filesystem::path const& path) {
     struct flock lock = whole_file();
     if (::fcntl(mine.file_.number(), F_OFD_SETLK, &lock) == 0) return mine;
     if (errno == EAGAIN || errno == EACCES) return {};
-    throw core::MissingError(fmt::format("cannot lock {} ({}); choose a file system that knows locks",
-                                         path.string(), std::strerror(errno)));
+    refuse(path);
 }
 
 FileLock FileLock::wait_for(std::filesystem::path const& path) {
     FileLock mine(open_file(path));
     struct flock lock = whole_file();
-    while (::fcntl(mine.file_.number(), F_OFD_SETLKW, &lock) != 0) {
-        if (errno == EINTR) continue;
-        throw core::MissingError(fmt::format("cannot lock {} ({}); choose a file system that knows locks",
-                                             path.string(), std::strerror(errno)));
-    }
+    while (::fcntl(mine.file_.number(), F_OFD_SETLKW, &lock) != 0)
+        if (errno != EINTR) refuse(path);
     return mine;
 }
 
@@ -55,6 +56,18 @@ bool FileLock::is_held(std::filesystem::path const& path) {
     core::Descriptor const file = core::open_to_read(path, core::Kinds::regular);
     struct flock lock = whole_file();
     return file.is_open() && ::fcntl(file.number(), F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+}
+
+FileLock lock_campaign(std::filesystem::path const& folder) {
+    if (auto lock = FileLock::take(folder / ".lock")) return std::move(*lock);
+    throw core::MissingError(
+        fmt::format("another vibrotrough is running the campaign in {}; wait for it, or stop it with "
+                    "Ctrl-C in its terminal",
+                    folder.string()));
+}
+
+bool has_driver(std::filesystem::path const& folder) {
+    return FileLock::is_held(folder / ".lock");
 }
 
 }  // namespace vibrotrough::campaign

@@ -29,4 +29,10 @@ class FileLock {
     core::Descriptor file_;
 };
 
+/// Holds a campaign folder for one driver. @throws MissingError when another driver holds it
+FileLock lock_campaign(std::filesystem::path const& folder);
+
+/// Whether some driver holds the folder now.
+bool has_driver(std::filesystem::path const& folder);
+
 }  // namespace vibrotrough::campaign

@@ -21,10 +21,6 @@ evaluate::LayerFriction measure_one(PlannedCase const& planned) {
     return evaluate::failed_friction_test(*planned.prepared, planned.id, why);
 }
 
-Json number(std::optional<double> const& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
-
 }  // namespace
 
 std::vector<evaluate::LayerFriction> measure_friction(Plan const& plan) {
@@ -45,12 +41,12 @@ void write_friction(std::filesystem::path const& campaign_folder,
                         {"case", test.case_id},
                         {"grain_friction", test.grain_friction},
                         {"machine_number", test.machine_number},
-                        {"max_relative_displacement", number(test.displacement)},
-                        {"max_relative_displacement_half_width", number(test.half_width)},
+                        {"max_relative_displacement", core::note::known_or_null(test.displacement)},
+                        {"max_relative_displacement_half_width", core::note::known_or_null(test.half_width)},
                         {"creep_per_cycle", test.creep},
-                        {"friction", number(test.friction)},
-                        {"friction_low", number(test.low)},
-                        {"friction_high", number(test.high)},
+                        {"friction", core::note::known_or_null(test.friction)},
+                        {"friction_low", core::note::known_or_null(test.low)},
+                        {"friction_high", core::note::known_or_null(test.high)},
                         {"mode", test.mode},
                         {"message", test.message}});
     }

@@ -66,11 +66,6 @@ BatchNote parse_batch(std::string_view text) {
     return batch;
 }
 
-LostTask parse_lost_task(std::string_view text) {
-    Json const json = note::parse(text);
-    return {failed_outcome(json), note::text(json, "message")};
-}
-
 EngineNote parse_engine(std::string_view text) {
     Json const json = note::parse(text);
     EngineNote engine{note::text(json, "program"),

@@ -50,15 +50,6 @@ struct BatchNote {
 /// batch.json
 BatchNote parse_batch(std::string_view text);
 
-/// What became of a task that ended without its own marker.
-struct LostTask {
-    core::Outcome outcome;  ///< one without a result, whatever the file says
-    std::string message;    ///< one line for people
-};
-
-/// The file task-N.lost of a batch.
-LostTask parse_lost_task(std::string_view text);
-
 /// The engine of a campaign, and what is frozen in the campaign's folder.
 struct EngineNote {
     std::string program;                 ///< its path

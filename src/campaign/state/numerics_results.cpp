@@ -35,14 +35,10 @@ evaluate::StudyResult result_of(Plan const& plan, scenario::Scenario const& scen
             failure ? fmt::format("{}: {}", name_of(failure->outcome), failure->message) : "not finished"};
 }
 
-Json number(std::optional<double> const& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
-
 Json describe(evaluate::StudyResult const& result) {
     return {{"case", result.case_id},
-            {"efficiency", number(result.mean)},
-            {"efficiency_half_width", number(result.half_width)},
+            {"efficiency", core::note::known_or_null(result.mean)},
+            {"efficiency_half_width", core::note::known_or_null(result.half_width)},
             {"message", result.message}};
 }
 
@@ -51,8 +47,8 @@ Json describe(evaluate::SettingError const& setting) {
     for (evaluate::MeasuredVariation const& one : setting.variations) {
         Json variation{{"value", one.value}, {"coarseness", one.coarseness}};
         variation.update(describe(one.result));
-        variation["error"] = number(one.error);
-        variation["error_half_width"] = number(one.half_width);
+        variation["error"] = core::note::known_or_null(one.error);
+        variation["error_half_width"] = core::note::known_or_null(one.half_width);
         variations.push_back(std::move(variation));
     }
     std::string_view const verdict = setting.is_left_out() ? "left-out"
@@ -63,7 +59,7 @@ Json describe(evaluate::SettingError const& setting) {
               {"key", key_of(setting.setting)},
               {"unit", unit_of(setting.setting)},
               {"default", setting.value},
-              {"order", number(setting.order)},
+              {"order", core::note::known_or_null(setting.order)},
               {"verdict", verdict},
               {"error", nullptr},
               {"error_half_width", nullptr},
@@ -84,7 +80,7 @@ Json describe(evaluate::NumericsBudget const& budget) {
     return {{"case", budget.case_id},
             {"confidence", budget.confidence},
             {"default", describe(budget.standard)},
-            {"numerical_error", number(budget.numerical_error())},
+            {"numerical_error", core::note::known_or_null(budget.numerical_error())},
             {"settings", std::move(settings)}};
 }
 

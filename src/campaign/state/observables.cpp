@@ -60,15 +60,11 @@ store::Observable observable_from(Json const& one) {
     return found;
 }
 
-Json known_or_null(std::optional<double> const& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
-
 Json describe(store::ObservedCase const& one) {
     Json means = Json::array(), half_widths = Json::array(), words = Json::array();
     for (store::ObservedValue const& value : one.values) {
-        means.push_back(known_or_null(value.mean));
-        half_widths.push_back(known_or_null(value.half_width));
+        means.push_back(core::note::known_or_null(value.mean));
+        half_widths.push_back(core::note::known_or_null(value.half_width));
         words.push_back(value.steadiness);
     }
     return {{"case", one.id},

@@ -16,46 +16,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Scenarios = std::vector<scenario::Scenario>;
-
-/// A case before it has a folder.
-struct IdentifiedCase {
-    std::shared_ptr<prepare::PreparedCase const> prepared = {};
-    std::string id = {};
-};
-
-/// Prepares cases and finds their ids.
-std::vector<IdentifiedCase> identify(Scenarios const& scenarios, std::string const& engine_version) {
-    std::vector<IdentifiedCase> cases(scenarios.size());
+/// Plans scenarios one after the other; each id once, because two ways to write one case are one case.
+void add_cases(std::deque<PlannedCase>& cases, std::set<std::string>& ids,
+               std::vector<scenario::Scenario> const& scenarios, fs::path const& folder,
+               std::string const& engine_version, bool are_added) {
+    std::vector<PlannedCase> found(scenarios.size());
     core::for_each_index(scenarios.size(), cases_per_thread, [&] {
-        return [&, preparer = std::make_shared<prepare::CasePreparer>()](std::size_t i) {
-            cases[i].prepared =
-                std::make_shared<prepare::PreparedCase const>(preparer->prepare(scenarios[i]));
-            cases[i].id = case_id(*cases[i].prepared, engine_version);
+        return [&](std::size_t i) {
+            found[i].prepared =
+                std::make_shared<prepare::PreparedCase const>(prepare::prepare_case(scenarios[i]));
+            found[i].id = case_id(*found[i].prepared, engine_version);
+            found[i].folder = folder / "cases" / found[i].id;
+            found[i].is_added = are_added;
         };
     });
-    return cases;
+    for (PlannedCase& one : found)
+        if (ids.insert(one.id).second) cases.push_back(std::move(one));
 }
-
-/// Plans scenarios one after the other; each id once, because two ways to write one case are one case.
-class Planner {
-  public:
-    void add(Scenarios const& scenarios, std::string const& engine_version, bool is_added = false) {
-        for (auto& [prepared, id] : identify(scenarios, engine_version)) {
-            if (ids_.insert(id).second) cases_.push_back({id, std::move(prepared), {}, {}, is_added});
-        }
-    }
-
-    /// The cases with their folders.
-    std::deque<PlannedCase> place(fs::path const& folder) {
-        for (PlannedCase& planned : cases_) planned.folder = folder / "cases" / planned.id;
-        return std::move(cases_);
-    }
-
-  private:
-    std::set<std::string> ids_;
-    std::deque<PlannedCase> cases_;
-};
 
 }  // namespace
 
@@ -67,10 +44,10 @@ std::string case_id(prepare::PreparedCase const& prepared, std::string const& en
 
 Plan make_plan(scenario::Campaign const& campaign, fs::path const& folder,
                std::string const& engine_version) {
-    Planner planner;
-    planner.add(campaign.cases, engine_version);
-    planner.add(read_added_cases(folder), engine_version, true);
-    Plan plan{campaign.name, folder, engine_version, planner.place(folder), campaign.files, campaign.swept};
+    Plan plan{campaign.name, folder, engine_version, {}, campaign.files, campaign.swept};
+    std::set<std::string> ids;
+    add_cases(plan.cases, ids, campaign.cases, folder, engine_version, false);
+    add_cases(plan.cases, ids, read_added_cases(folder), folder, engine_version, true);
     label_cases(plan);
     return plan;
 }
@@ -89,9 +66,10 @@ void label_cases(Plan& plan) {
 
 PlannedCase plan_case(scenario::Scenario const& scenario, fs::path const& folder,
                       std::string const& engine_version) {
-    Planner planner;
-    planner.add(Scenarios{scenario}, engine_version);
-    return planner.place(folder).front();
+    std::deque<PlannedCase> cases;
+    std::set<std::string> ids;
+    add_cases(cases, ids, {scenario}, folder, engine_version, false);
+    return cases.front();
 }
 
 std::size_t count_left_aside(Plan const& plan) {
