@@ -89,9 +89,6 @@ void add_theory_trace(CLI::App& theory, int& exit_code);
 void add_theory_limits(CLI::App& theory, int& exit_code);
 /// Evaluates a horizontal shake test.
 void add_theory_friction(CLI::App& theory, int& exit_code);
-/// Prints derivatives of the velocity efficiency.
-/// Finds the fastest machine within limits.
-void add_theory_design(CLI::App& theory, int& exit_code);
 /// Solves the motions of a CSV file.
 void add_theory_batch(CLI::App& theory, int& exit_code);
 /// Finds friction and other quantities from measured speeds.

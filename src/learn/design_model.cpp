@@ -1,7 +1,6 @@
 #include "learn/design_model.hpp"
 
 #include "learn/machine_keys.hpp"
-#include "theory/design.hpp"
 #include "theory/efficiency.hpp"
 #include "theory/limits.hpp"
 #include "theory/tested_range.hpp"

@@ -3,7 +3,7 @@
 #include "learn/known_friction.hpp"
 #include "learn/model_errors.hpp"
 #include "learn/uncertain.hpp"
-#include "theory/drive_search.hpp"
+#include "theory/drive.hpp"
 #include "theory/rolling_layer.hpp"
 
 #include <cmath>

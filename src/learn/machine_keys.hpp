@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenario/reader/keys.hpp"
-#include "theory/drive_search.hpp"
+#include "theory/drive.hpp"
 
 #include <numbers>
 #include <string_view>

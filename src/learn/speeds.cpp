@@ -4,7 +4,7 @@
 #include "core/nearest.hpp"
 #include "core/typed_unit.hpp"
 #include "learn/machine_keys.hpp"
-#include "theory/drive_search.hpp"
+#include "theory/drive.hpp"
 #include "theory/quantities.hpp"
 #include "theory/unusual.hpp"
 

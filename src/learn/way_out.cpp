@@ -3,7 +3,6 @@
 #include "core/text.hpp"
 #include "learn/layer_search.hpp"
 #include "learn/machine_keys.hpp"
-#include "theory/design.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,6 @@
 #include "learn/design_report.hpp"
 #include "learn/makers_rule.hpp"
 #include "learn/pellets.hpp"
-#include "theory/design.hpp"
 #include "theory/point_mass.hpp"
 #include "theory/quantities.hpp"
 #include "theory/random_number.hpp"
@@ -177,16 +176,41 @@ TEST(RiskDesign, IsRoundedToWhatAWorkshopSets) {
     EXPECT_TRUE(is_whole(d.drive.vibration_angle * 180 / pi * 20)) << d.drive.vibration_angle * 180 / pi;
 }
 
-// Without uncertainty the fastest design is that of the theory, up to rounding (0.5 %).
+/// m/s, of the fastest drive on a grid of a space, level and without uncertainty.
+double fastest_on_a_grid(theory::DriveSpace const& space, double friction) {
+    auto const between_ends_of = [](theory::Range const& r, double share) {
+        return r.low + share * (r.high - r.low);
+    };
+    double fastest = 0;
+    for (int i = 0; i <= 60; ++i) {
+        double const amplitude =
+            space.amplitude.low * std::pow(space.amplitude.high / space.amplitude.low, i / 60.0);
+        for (int j = 0; j <= 120; ++j) {
+            double const beta = between_ends_of(space.vibration_angle, j / 120.0);
+            for (int k = 1; k <= 40; ++k) {
+                double const omega = std::sqrt(space.max_machine_number * k / 40 * space.gravity / amplitude);
+                theory::Drive const d{omega / (2 * pi), amplitude, beta, 0};
+                if (d.frequency < space.frequency.low || d.frequency > space.frequency.high ||
+                    excess(space, d) > 0)
+                    continue;
+                double const eta = theory::solve(point_of(d, friction)).velocity_efficiency;
+                fastest = std::max(fastest, eta * d.trough_speed());
+            }
+        }
+    }
+    return fastest;
+}
+
+// Without uncertainty the fastest design is that of the theory: none on a grid is faster, but for what rounding
+// the drive may cost (0.5 %), and the grid comes near it.
 TEST(RiskDesign, WithoutRiskItIsTheFastestDesign) {
     DesignTask task = pellets();
     task.friction = normal_friction(0.3, 0);
     task.models = {point_mass_design_model(0)};
-    theory::DesignLimits limits{};
-    limits.friction = 0.3;
-    limits.max_machine_number = task.space.max_machine_number;
-    double const fastest = theory::fastest_design(limits).conveying_speed;
-    EXPECT_NEAR(design_with_risk(task).forecasts.front().median_speed, fastest, 0.007 * fastest);
+    double const fastest = fastest_on_a_grid(task.space, 0.3);
+    double const speed = design_with_risk(task).forecasts.front().median_speed;
+    EXPECT_GE(speed, 0.995 * fastest);
+    EXPECT_LE(speed, 1.02 * fastest);
 }
 
 // Each objective is better in its own terms than the fastest design, and still reaches the mass flow.

@@ -2,7 +2,6 @@
 
 #include "core/error.hpp"
 #include "core/typed_unit.hpp"
-#include "theory/design.hpp"
 
 #include <algorithm>
 #include <cmath>

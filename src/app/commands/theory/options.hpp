@@ -1,7 +1,7 @@
 #pragma once
 
 #include "theory/conveyor.hpp"
-#include "theory/drive_search.hpp"
+#include "theory/drive.hpp"
 #include "theory/inputs.hpp"
 #include "theory/quantities.hpp"
 #include "theory/rolling_layer.hpp"
