@@ -134,9 +134,9 @@ std::vector<std::string> with_unknown_layer(std::vector<std::string> free,
     return free;
 }
 
-SpeedModel atlas_speed_model(double diameter, std::vector<std::string> const& free,
-                             std::map<std::string, double> const& fixed,
-                             std::vector<MeasuredSpeed> const& speeds) {
+CalibrationModel atlas_speed_model(double diameter, std::vector<std::string> const& free,
+                                   std::map<std::string, double> const& fixed,
+                                   std::vector<MeasuredSpeed> const& speeds) {
     check_given(free, fixed, atlas_parameters(), "a layer of spheres", speeds);
     for (auto const& [name, value] : fixed) {
         auto const [low, high] = atlas_parameters()[AtlasSpeedModel::index_of(name)].prior;

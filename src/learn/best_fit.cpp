@@ -18,7 +18,7 @@ constexpr int starts = 5;
 /// The model's chi-square over the unit cube of the priors, as NLopt asks for it.
 class ChiSquare {
   public:
-    ChiSquare(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
+    ChiSquare(CalibrationModel const& model, std::vector<FreeParameter> const& parameters,
               std::vector<MeasuredSpeed> const& speeds, double common_error)
         : model_(model),
           parameters_(parameters),
@@ -44,7 +44,7 @@ class ChiSquare {
     }
 
   private:
-    SpeedModel const& model_;
+    CalibrationModel const& model_;
     std::vector<FreeParameter> const& parameters_;
     std::vector<MeasuredSpeed> const& speeds_;
     Eigen::MatrixXd common_errors_;
@@ -67,7 +67,7 @@ std::vector<std::vector<double>> spread_points(std::size_t dimensions, int count
 
 }  // namespace
 
-BestFit best_fit(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
+BestFit best_fit(CalibrationModel const& model, std::vector<FreeParameter> const& parameters,
                  std::vector<MeasuredSpeed> const& speeds, double common_error) {
     ChiSquare chi_square(model, parameters, speeds, common_error);
     std::vector<std::pair<double, std::vector<double>>> points;

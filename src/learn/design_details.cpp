@@ -2,7 +2,7 @@
 
 #include "core/text.hpp"
 #include "learn/driven_design.hpp"
-#include "learn/makers_rule.hpp"
+#include "learn/rules_of_thumb.hpp"
 
 #include <algorithm>
 #include <cmath>

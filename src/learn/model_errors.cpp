@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
 namespace vibrotrough::learn {
 namespace {
 
@@ -51,6 +54,16 @@ double most(std::span<ModelError const> errors, Part const& part) {
     return largest;
 }
 
+/// By how much Student's t with so many degrees of freedom is wider at a confidence than at the usual one,
+/// each over the normal distribution.
+double widening(int degrees_of_freedom, double confidence) {
+    if (confidence <= usual_confidence) return 1;
+    boost::math::students_t const t(degrees_of_freedom);
+    boost::math::normal const normal;
+    auto const wider = [&](double p) { return quantile(t, p) / quantile(normal, p); };
+    return wider(confidence) / wider(usual_confidence);
+}
+
 }  // namespace
 
 std::span<ModelError const> point_mass_errors() {
@@ -62,7 +75,7 @@ std::span<ModelError const> rolling_layer_errors() {
 }
 
 std::optional<double> known_error(std::span<ModelError const> errors, double throw_number,
-                                  double tan_inclination, std::optional<double> depth) {
+                                  double tan_inclination, std::optional<double> depth, double confidence) {
     double const last_throw_number = largest_throw_number(errors);
     double const last_slope = most(errors, [](ModelError const& one) { return one.tan_inclination.high; });
     double const last_depth = largest_depth(errors);
@@ -71,7 +84,7 @@ std::optional<double> known_error(std::span<ModelError const> errors, double thr
         bool const here = contains(one.throw_number, throw_number, last_throw_number) &&
                           contains(one.tan_inclination, tan_inclination, last_slope) &&
                           (!depth || contains(one.depth, *depth, last_depth));
-        if (here) found = std::max(found.value_or(0), one.sd);
+        if (here) found = std::max(found.value_or(0), one.sd * widening(one.layers, confidence));
     }
     return found;
 }

@@ -13,18 +13,26 @@ struct ModelError {
     theory::Range tan_inclination;  ///< tan(alpha), uphill positive
     theory::Range depth;            ///< of the layer, in diameters of its grains
     int layers;                     ///< that were simulated there
-    double sd;                      ///< standard deviation of the error, in velocity efficiency
+    /// Standard deviation of a normal distribution that holds the error, in velocity efficiency, with
+    /// usual_confidence: the root mean square of so few layers times t(0.975; layers) / 1.96.
+    double sd;
 };
+
+inline constexpr double usual_confidence = 0.975;  ///< one-sided: of the ends of a 95 % interval
 
 /// The errors of the point mass, from simulated layers whose grains do not roll.
 std::span<ModelError const> point_mass_errors();
 /// The errors of the rolling-layer law, from layers of spheres that roll.
 std::span<ModelError const> rolling_layer_errors();
 
-/// Standard deviation of what a model misses; nothing where no layer says it.
+/// Standard deviation of what a model misses; nothing where no layer says it. The error is distributed as
+/// Student's t with as many degrees of freedom as there are layers, whose tails are longer than those of a
+/// normal distribution: the standard deviation is so large that the two agree at the confidence.
 /// @param depth  of the layer, in diameters of its grains; when it is not known, the largest of all depths
+/// @param confidence  one-sided; below usual_confidence the standard deviation is that of it
 std::optional<double> known_error(std::span<ModelError const> errors, double throw_number,
-                                  double tan_inclination, std::optional<double> depth);
+                                  double tan_inclination, std::optional<double> depth,
+                                  double confidence = usual_confidence);
 
 /// The largest of them.
 double largest_error(std::span<ModelError const> errors);

@@ -106,8 +106,8 @@ std::vector<FreeParameter> const& point_mass_parameters() {
     return parameters;
 }
 
-SpeedModel point_mass_model(std::vector<std::string> const& free, Values const& fixed,
-                            std::vector<MeasuredSpeed> const& speeds) {
+CalibrationModel point_mass_model(std::vector<std::string> const& free, Values const& fixed,
+                                  std::vector<MeasuredSpeed> const& speeds) {
     check_given(free, fixed, point_mass_parameters(), "the point mass", speeds);
     if (std::ranges::find(free, "friction") == free.end() && !fixed.contains("friction"))
         throw core::InputError(

@@ -36,6 +36,22 @@ double hardest_landing(KnownFriction const& friction, theory::Drive const& drive
                      landing_speed(drive, friction.high)});
 }
 
+/// What all models of a task leave of its limits; the depths may be empty.
+AllowedLayers allowed_drives(DesignTask const& task) {
+    AllowedLayers allowed{task.space, task.depth};
+    allowed.drives.inclination = theory::with_friction_margin(task.space.inclination, task.friction.low);
+    for (DesignModel const& model : task.models) model.speeds->narrow(allowed.drives, allowed.depth);
+    return allowed;
+}
+
+std::vector<std::string> known_ranges(DesignTask const& task) {
+    std::vector<std::string> known;
+    for (DesignModel const& model : task.models)
+        if (!model.known_range.empty())
+            known.push_back(fmt::format("{} knows {}", model.name, model.known_range));
+    return known;
+}
+
 /// The drive that is best in something among those that keep all limits of a task, whatever it carries.
 std::optional<theory::Drive> best_within(DesignTask const& task, DriveFunction const& merit) {
     LayerGoal goal;
@@ -49,7 +65,7 @@ std::optional<theory::Drive> best_within(DesignTask const& task, DriveFunction c
         });
     try {
         auto const found =
-            best_layers(LayerSpace(allowed_space(task), {task.depth.low, task.depth.low}), goal);
+            best_layers(LayerSpace(allowed_drives(task).drives, {task.depth.low, task.depth.low}), goal);
         return found.empty() ? std::nullopt : std::optional(found.front().layer.drive);
     } catch (std::invalid_argument const&) {
         return {};
@@ -122,22 +138,24 @@ std::optional<std::string> way_past(Limit const& limit, DesignTask task) {
 
 }  // namespace
 
-theory::DriveSpace allowed_space(DesignTask const& task) {
-    theory::DriveSpace space = task.space;
-    space.inclination = theory::with_friction_margin(space.inclination, task.friction.low);
-    for (DesignModel const& model : task.models) space = model.narrowed(space);
-    return space;
+AllowedLayers allowed_layers(DesignTask const& task) {
+    AllowedLayers allowed = allowed_drives(task);
+    auto& [low, high] = allowed.depth;
+    // Ends that are the same but for rounding.
+    if (low > high && low < high * (1 + 1e-9)) low = high;
+    if (low <= high) return allowed;
+    throw std::invalid_argument(fmt::format("a layer {:.3g} to {:.3g} mm deep has not been simulated; {}",
+                                            1e3 * task.depth.low, 1e3 * task.depth.high,
+                                            fmt::join(known_ranges(task), ", ")));
 }
 
 std::string why_no_machine(DesignTask const& task) {
-    std::vector<std::string> ways, known;
-    for (DesignModel const& model : task.models)
-        if (!model.known_range.empty())
-            known.push_back(fmt::format("{} knows {}", model.name, model.known_range));
+    std::vector<std::string> ways;
     for (Limit const& limit : limits_of(task))
         if (auto const way = way_past(limit, task)) ways.push_back(*way);
     std::string text = "the limits exclude every machine, whatever it carries";
-    if (!known.empty()) text += fmt::format("; {}", fmt::join(known, ", "));
+    if (auto const known = known_ranges(task); !known.empty())
+        text += fmt::format("; {}", fmt::join(known, ", "));
     if (ways.empty()) return text + "; no limit alone is the reason";
     return text + fmt::format("; {} would let one through", fmt::join(ways, ", or "));
 }

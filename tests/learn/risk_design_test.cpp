@@ -2,8 +2,8 @@
 
 #include "core/error.hpp"
 #include "learn/design_report.hpp"
-#include "learn/makers_rule.hpp"
 #include "learn/pellets.hpp"
+#include "learn/rules_of_thumb.hpp"
 #include "theory/point_mass.hpp"
 #include "theory/quantities.hpp"
 #include "theory/random_number.hpp"
@@ -112,11 +112,6 @@ RC_GTEST_PROP(RiskDesign, BreaksNoLimitAtAnyFriction, ()) {
     }
 }
 
-/// A random number between 0 and 1.
-double uniform() {
-    return between(0, 1);
-}
-
 /// How often the machine of a design carries the mass flow by a model, from random frictions of a normal
 /// distribution, each of another one of its equal parts. What the model misses is taken into account exactly.
 double tried_probability(DesignTask const& task, double median, double sd, RiskDesign const& d,
@@ -124,7 +119,7 @@ double tried_probability(DesignTask const& task, double median, double sd, RiskD
     double const needed = task.mass_flow / (task.bulk_density * task.width * d.depth);
     double sum = 0;
     for (int i = 0; i < tries; ++i) {
-        double const share = std::clamp((i + uniform()) / tries, 1e-9, 1 - 1e-9);
+        double const share = std::clamp((i + between(0, 1)) / tries, 1e-9, 1 - 1e-9);
         double const mu = std::max(0.01, median - sd * std::sqrt(2.0) * boost::math::erfc_inv(2 * share));
         auto const value = model.at({d.drive, d.depth}, mu);
         if (!value) continue;
@@ -176,22 +171,18 @@ TEST(RiskDesign, IsRoundedToWhatAWorkshopSets) {
     EXPECT_TRUE(is_whole(d.drive.vibration_angle * 180 / pi * 20)) << d.drive.vibration_angle * 180 / pi;
 }
 
-/// m/s, of the fastest drive on a grid of a space, level and without uncertainty.
-double fastest_on_a_grid(theory::DriveSpace const& space, double friction) {
-    auto const between_ends_of = [](theory::Range const& r, double share) {
-        return r.low + share * (r.high - r.low);
-    };
+/// m/s, of the fastest level drive on a grid of a space.
+double fastest_on_a_grid(theory::DriveSpace const& s, double friction) {
     double fastest = 0;
     for (int i = 0; i <= 60; ++i) {
-        double const amplitude =
-            space.amplitude.low * std::pow(space.amplitude.high / space.amplitude.low, i / 60.0);
+        double const amplitude = s.amplitude.low * std::pow(s.amplitude.high / s.amplitude.low, i / 60.0);
         for (int j = 0; j <= 120; ++j) {
-            double const beta = between_ends_of(space.vibration_angle, j / 120.0);
+            double const share = j / 120.0;
+            double const beta = (1 - share) * s.vibration_angle.low + share * s.vibration_angle.high;
             for (int k = 1; k <= 40; ++k) {
-                double const omega = std::sqrt(space.max_machine_number * k / 40 * space.gravity / amplitude);
+                double const omega = std::sqrt(s.max_machine_number * k / 40 * s.gravity / amplitude);
                 theory::Drive const d{omega / (2 * pi), amplitude, beta, 0};
-                if (d.frequency < space.frequency.low || d.frequency > space.frequency.high ||
-                    excess(space, d) > 0)
+                if (d.frequency < s.frequency.low || d.frequency > s.frequency.high || excess(s, d) > 0)
                     continue;
                 double const eta = theory::solve(point_of(d, friction)).velocity_efficiency;
                 fastest = std::max(fastest, eta * d.trough_speed());
@@ -201,8 +192,8 @@ double fastest_on_a_grid(theory::DriveSpace const& space, double friction) {
     return fastest;
 }
 
-// Without uncertainty the fastest design is that of the theory: none on a grid is faster, but for what rounding
-// the drive may cost (0.5 %), and the grid comes near it.
+// Without uncertainty the fastest design is that of the theory: none on a grid is faster, but for what
+// rounding the drive may cost (0.5 %), and the grid comes near it.
 TEST(RiskDesign, WithoutRiskItIsTheFastestDesign) {
     DesignTask task = pellets();
     task.friction = normal_friction(0.3, 0);
