@@ -35,7 +35,7 @@ struct SimulatedLayer {
 /// says.
 /// @param layers    at least one
 /// @param diameter  m, of the grains
-/// @param confidence  up to which what the model misses is to be held, as known_error()
+/// @param confidence  up to which what the model misses is to be held, as DesignModel::missed()
 DesignModel corrected_design_model(DesignModel const& model, std::vector<SimulatedLayer> const& layers,
                                    double diameter, double confidence = usual_confidence);
 

@@ -13,7 +13,7 @@ struct ModelError {
     theory::Range tan_inclination;  ///< tan(alpha), uphill positive
     theory::Range depth;            ///< of the layer, in diameters of its grains
     int layers;                     ///< that were simulated there
-    /// Standard deviation of a normal distribution that holds the error, in velocity efficiency, with
+    /// Standard deviation of a normal distribution that holds the error, in velocity efficiency, up to
     /// usual_confidence: the root mean square of so few layers times t(0.975; layers) / 1.96.
     double sd;
 };
@@ -25,22 +25,20 @@ std::span<ModelError const> point_mass_errors();
 /// The errors of the rolling-layer law, from layers of spheres that roll.
 std::span<ModelError const> rolling_layer_errors();
 
-/// Standard deviation of what a model misses; nothing where no layer says it. The error is distributed as
-/// Student's t with as many degrees of freedom as there are layers, whose tails are longer than those of a
-/// normal distribution: the standard deviation is so large that the two agree at the confidence.
-/// @param depth  of the layer, in diameters of its grains; when it is not known, the largest of all depths
-/// @param confidence  one-sided; below usual_confidence the standard deviation is that of it
+/// What is known of the error of a model at a place, the row of the largest sd; nullptr where no layer says
+/// it.
+/// @param depth  of the layer, in diameters of its grains; nothing: any
+ModelError const* known_row(std::span<ModelError const> errors, double throw_number, double tan_inclination,
+                            std::optional<double> depth);
+
+/// Standard deviation of what a model misses; nothing where no layer says it.
 std::optional<double> known_error(std::span<ModelError const> errors, double throw_number,
-                                  double tan_inclination, std::optional<double> depth,
-                                  double confidence = usual_confidence);
+                                  double tan_inclination, std::optional<double> depth);
 
 /// The largest of them.
 double largest_error(std::span<ModelError const> errors);
 
 /// The largest throw number of which they say something.
 double largest_throw_number(std::span<ModelError const> errors);
-
-/// The largest depth, in diameters of a grain.
-double largest_depth(std::span<ModelError const> errors);
 
 }  // namespace vibrotrough::learn

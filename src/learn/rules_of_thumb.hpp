@@ -2,14 +2,14 @@
 
 #include "theory/drive.hpp"
 
-#include <optional>
-
 namespace vibrotrough::learn {
 
 /// m/s: the rule of Daesung Machinery for horizontal vibrating conveyors, v = 3.81 N S in m/min with N in
 /// cycles per minute and S, the amplitude, in m; 70 to 80 % of it are used in practice
 /// (dsv.co.kr/vibrating_machinery_vc_06.html; validation/daesung).
-double rule_of_daesung(theory::Drive const& drive);
+inline double rule_of_daesung(theory::Drive const& drive) {
+    return 3.81 * (60 * drive.frequency) * drive.amplitude / 60;
+}
 
 /// The speed of a material without slip on a level or inclined trough, as guidelines such as VDI 2333
 /// compute it: it moves with the trough while it touches it and flies for n cycles:
@@ -17,10 +17,5 @@ double rule_of_daesung(theory::Drive const& drive);
 /// Zero when the material is not thrown. m/s. (vibrationsfoerdertechnik.de, on VDI 2333, says which
 /// assumptions are made.)
 double speed_without_slip(theory::Drive const& drive);
-
-/// How many times as fast as the theory layers of spheres that roll were simulated at a throw number:
-/// validation/why_theory_fails and rolling_layer, level, tan(beta) = 0.5, friction 0.23. Nothing outside the
-/// throw numbers 1.2 to 2.3.
-std::optional<double> factor_of_rolling_layers(double throw_number);
 
 }  // namespace vibrotrough::learn

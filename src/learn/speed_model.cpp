@@ -9,6 +9,8 @@
 #include <array>
 #include <map>
 
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 
 namespace vibrotrough::learn {
@@ -98,13 +100,22 @@ class RollingLayerSpeeds : public SpeedModel {
     double last_spread_ = 0;
 };
 
+/// By how much Student's t with so many degrees of freedom is wider at a confidence than at the usual one,
+/// each over the normal distribution.
+double widening(int degrees_of_freedom, double confidence) {
+    if (confidence <= usual_confidence) return 1;
+    boost::math::students_t const t(degrees_of_freedom);
+    boost::math::normal const normal;
+    auto const wider = [&](double p) { return quantile(t, p) / quantile(normal, p); };
+    return wider(confidence) / wider(usual_confidence);
+}
+
 }  // namespace
 
 double DesignModel::missed(theory::Drive const& drive, std::optional<double> depth, double confidence) const {
     if (discrepancy) return *discrepancy;
-    auto const known =
-        known_error(errors, drive.throw_number(), std::tan(drive.inclination), depth, confidence);
-    return known.value_or(largest_error(errors));
+    auto const* const row = known_row(errors, drive.throw_number(), std::tan(drive.inclination), depth);
+    return row != nullptr ? row->sd * widening(row->layers, confidence) : largest_error(errors);
 }
 
 std::optional<std::string> DesignModel::untested(theory::Drive const& drive, double friction,

@@ -86,9 +86,12 @@ struct DesignModel {
     }
     /// How far a drive is outside what the model knows, relatively; zero or less inside.
     double excess(theory::Drive const& drive) const { return speeds->where(drive, 0, {}).excess; }
-    /// Standard deviation of what it misses at a drive, as known_error(); where nothing is known, the largest
-    /// that is.
+    /// Standard deviation of what it misses at a drive; where nothing is known, the largest that is. What few
+    /// layers tell is distributed as Student's t with as many degrees of freedom, whose tails are longer than
+    /// those of a normal distribution: the standard deviation is so large that the two agree at the
+    /// confidence.
     /// @param depth  of the layer, in diameters of its grains, if it is known
+    /// @param confidence  one-sided; below usual_confidence the standard deviation is that of it
     double missed(theory::Drive const& drive, std::optional<double> depth,
                   double confidence = usual_confidence) const;
     /// Why its error is not known at a drive, a friction and a depth, without a full stop; nothing where it

@@ -126,7 +126,8 @@ TEST(ModelErrors, AreLookedUpByThrowNumberSlopeAndDepth) {
 // table.
 TEST(ModelErrors, FewLayersHaveLongTails) {
     auto const sd = [](double confidence) {
-        return known_error(point_mass_errors(), 1, 0, 4.0, confidence).value();
+        theory::Drive const of_throw_number_1{10, 0.00993, 0.25, 0};
+        return point_mass_design_model().missed(of_throw_number_1, 4.0, confidence);
     };
     EXPECT_EQ(sd(0.95), 0.026);
     EXPECT_EQ(sd(0.975), 0.026);

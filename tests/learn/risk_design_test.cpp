@@ -249,39 +249,6 @@ TEST(RiskDesign, SaysWhenItCannotBeReached) {
                 testing::StartsWith("No machine within the limits carries 1000 t/h"));
 }
 
-/// The layers that roll, by throw number, from a stored table: level, tan(beta) = 0.5, friction 0.23.
-void read_layers(char const* file, std::string const& beginning, std::size_t efficiency_column,
-                 std::map<double, double>& layers) {
-    std::ifstream table(std::string(VALIDATION_FOLDER) + file);
-    ASSERT_TRUE(table) << file;
-    for (std::string line; std::getline(table, line);) {
-        if (line.rfind(beginning, 0) != 0) continue;
-        std::stringstream cells(line.substr(beginning.size()));
-        std::vector<double> numbers;
-        for (std::string cell; std::getline(cells, cell, ',') && numbers.size() <= efficiency_column;)
-            numbers.push_back(std::stod(cell));
-        layers[numbers.front()] = numbers.at(efficiency_column);
-    }
-}
-
-// The factor is that of the project's own tables: layer over theory.
-TEST(RiskDesign, FactorOfRollingLayersIsThatOfTheTables) {
-    std::map<double, double> layers;
-    read_layers("/why_theory_fails/result.csv", "\"4 deep, free\",", 3, layers);
-    read_layers("/rolling_layer/held_out.csv", "throw number,", 1, layers);
-    int compared = 0;
-    for (auto const& [gamma, layer] : layers) {
-        auto const factor = factor_of_rolling_layers(gamma);
-        EXPECT_EQ(factor.has_value(), gamma >= 1.2 && gamma <= 2.3) << gamma;
-        if (!factor) continue;
-        double const theory = theory::solve(theory::PointMass{gamma, 0.5, 0, 0.23}).velocity_efficiency;
-        EXPECT_NEAR(*factor, layer / theory, 0.0006 / theory) << gamma;  // three digits of the efficiency
-        ++compared;
-    }
-    EXPECT_GE(compared, 8);
-    EXPECT_NEAR(*factor_of_rolling_layers(1.7), 1.99, 0.01);
-}
-
 TEST(RiskDesign, WarnsWhereTheTheoryAloneIsWrong) {
     DesignTask task = pellets();
     task.space.max_throw_number = 1.7;

@@ -7,7 +7,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "learn/atlas_design_model.hpp"
-#include "learn/posterior_file.hpp"
+#include "learn/notes.hpp"
 #include "learn/surface_design_model.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
@@ -200,9 +200,9 @@ learn::KnownFriction DesignOptions::read_friction(std::string& calibrated_model)
     refuse_both("--posterior", posterior, "--friction-uncertainty", friction_uncertainty);
     if (posterior) {
         core::TextFile const file = core::read_text_file(*posterior);
-        auto const read = learn::read_posterior(file.content, *posterior);
-        calibrated_model = read.model;
-        return read.friction;
+        auto const [read, model] = learn::read_posterior(file.content, *posterior);
+        calibrated_model = model;
+        return read;
     }
     learn::Uncertain known =
         read_uncertain_number("--friction", required("--friction", friction, "0.3"), "0.3", 0.01, 10);
