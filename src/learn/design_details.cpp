@@ -5,6 +5,7 @@
 #include "learn/rules_of_thumb.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -81,15 +82,8 @@ double share_of(BudgetShare const& one, ModelForecast const& f) {
 }
 
 char const* source_of(AddedMassSource source) {
-    switch (source) {
-        case AddedMassSource::given:
-            return "as given";
-        case AddedMassSource::atlas:
-            return "the atlas of layers";
-        case AddedMassSource::maker:
-            break;
-    }
-    return "as makers count";
+    static constexpr std::array names{"as makers count", "as given", "the atlas of layers"};
+    return names.at(static_cast<std::size_t>(source));
 }
 
 /// The exciter of a machine under its layer.

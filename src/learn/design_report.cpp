@@ -5,7 +5,7 @@
 #include "learn/driven_design.hpp"
 #include "learn/machine_keys.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -193,17 +193,8 @@ Json as_json(DesignTask const& t) {
 }  // namespace
 
 std::string name_of(Objective objective) {
-    switch (objective) {
-        case Objective::fastest:
-            return "fastest";
-        case Objective::gentlest_landing:
-            return "gentlest-landing";
-        case Objective::least_machine_number:
-            return "least-machine-number";
-        case Objective::least_power:
-            return "least-power";
-    }
-    return "";
+    static constexpr std::array names{"fastest", "gentlest-landing", "least-machine-number", "least-power"};
+    return names.at(static_cast<std::size_t>(objective));
 }
 
 std::string first_sentence(DesignTask const& t, RiskDesign const& d) {

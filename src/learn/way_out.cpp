@@ -84,41 +84,35 @@ std::vector<Limit> limits_of(DesignTask const& task) {
     using theory::Drive;
     theory::DriveSpace const& space = task.space;
     double const g = space.gravity;
+    auto const machine = [=](Drive const& d) { return d.machine_number(g); };
+    auto const thrown = [=](Drive const& d) { return d.throw_number(g); };
+    auto const number = [](double Drive::*which) { return [=](Drive const& d) { return d.*which; }; };
+    auto const widen = [](theory::Range theory::DriveSpace::*range, theory::Range const& all) {
+        return [=](DesignTask& t) { t.space.*range = all; };
+    };
+    auto const lift = [](double theory::DriveSpace::*most) {
+        return [=](DesignTask& t) { t.space.*most = given_up; };
+    };
+    char const* const stroke = task.tells_amplitude ? "amplitude" : "stroke";
+    char const* const speed = task.tells_frequency ? "frequency" : "speed of the drive";
+    double const in_mm = task.tells_amplitude ? 1000 : 2000, in_turns = task.tells_frequency ? 1 : 60;
+    char const* const turns = task.tells_frequency ? " Hz" : " 1/min";
+    using Space = theory::DriveSpace;
     std::vector<Limit> limits{
-        {"machine number",
-         "",
-         1,
-         {0, space.max_machine_number},
-         [=](Drive const& d) { return d.machine_number(g); },
-         [](DesignTask& t) { t.space.max_machine_number = given_up; }},
-        {"throw number",
-         "",
-         1,
-         {0, space.max_throw_number},
-         [=](Drive const& d) { return d.throw_number(g); },
-         [](DesignTask& t) { t.space.max_throw_number = given_up; }},
-        {task.tells_amplitude ? "amplitude" : "stroke", " mm", task.tells_amplitude ? 1000.0 : 2000.0,
-         space.amplitude, [](Drive const& d) { return d.amplitude; },
-         [](DesignTask& t) {
-             t.space.amplitude = {1e-6, 0.1};
-         }},
-        {task.tells_frequency ? "frequency" : "speed of the drive", task.tells_frequency ? " Hz" : " 1/min",
-         task.tells_frequency ? 1.0 : 60.0, space.frequency, [](Drive const& d) { return d.frequency; },
-         [](DesignTask& t) {
-             t.space.frequency = {0.5, 200};
-         }},
-        {"vibration angle", " degrees", 1 / degree, space.vibration_angle,
-         [](Drive const& d) { return d.vibration_angle; },
-         [](DesignTask& t) {
-             t.space.vibration_angle = {degree, 89 * degree};
-         }}};
-    if (task.landing_speed)
-        limits.push_back({"landing speed",
-                          " m/s",
-                          1,
-                          {0, *task.landing_speed},
-                          [&task](Drive const& d) { return hardest_landing(task.friction, d); },
-                          [](DesignTask& t) { t.landing_speed.reset(); }});
+        {"machine number", "", 1, {0, space.max_machine_number}, machine, lift(&Space::max_machine_number)},
+        {"throw number", "", 1, {0, space.max_throw_number}, thrown, lift(&Space::max_throw_number)},
+        {stroke, " mm", in_mm, space.amplitude, number(&Drive::amplitude),
+         widen(&Space::amplitude, {1e-6, 0.1})},
+        {speed, turns, in_turns, space.frequency, number(&Drive::frequency),
+         widen(&Space::frequency, {0.5, 200})},
+        {"vibration angle", " degrees", 1 / degree, space.vibration_angle, number(&Drive::vibration_angle),
+         widen(&Space::vibration_angle, {degree, 89 * degree})}};
+    if (task.landing_speed) {
+        auto const hardest = [&task](Drive const& d) { return hardest_landing(task.friction, d); };
+        limits.push_back({"landing speed", " m/s", 1, {0, *task.landing_speed}, hardest, [](DesignTask& t) {
+                              t.landing_speed.reset();
+                          }});
+    }
     return limits;
 }
 
