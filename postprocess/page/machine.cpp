@@ -2,7 +2,7 @@
 
 #include "atlas/tables.hpp"
 #include "atlas/unknown.hpp"
-#include "learn/makers_rule.hpp"
+#include "learn/rules_of_thumb.hpp"
 #include "learn/model_errors.hpp"
 #include "theory/quantities.hpp"
 #include "theory/tested_range.hpp"

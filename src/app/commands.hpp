@@ -55,7 +55,6 @@ void add_theory_map(CLI::App& theory, int& exit_code);
 void add_theory_trace(CLI::App& theory, int& exit_code);
 void add_theory_limits(CLI::App& theory, int& exit_code);
 void add_theory_friction(CLI::App& theory, int& exit_code);
-void add_theory_design(CLI::App& theory, int& exit_code);
 void add_theory_batch(CLI::App& theory, int& exit_code);
 void add_theory_calibrate(CLI::App& theory, int& exit_code);
 

@@ -211,13 +211,13 @@ class Verifier {
         auto const promised = compared(found_.task, layers);
         layers_.insert(layers_.end(), layers.begin(), layers.end());
         for (std::size_t i = 0; i < original_.models.size(); ++i)
-            found_.task.models[i] =
-                learn::corrected_design_model(original_.models[i], layers_, *original_.grain_diameter);
+            found_.task.models[i] = learn::corrected_design_model(
+                original_.models[i], layers_, *original_.grain_diameter, original_.confidence);
         theory::Drive const drive = found_.design.drive;
         double const depth = found_.design.depth;
-        auto const speeds_tried = found_.design.speeds_tried;
+        auto const choices = found_.design.choices;
         found_.design = learn::judge_machine(found_.task, drive, depth);
-        found_.design.speeds_tried = speeds_tried;
+        found_.design.choices = choices;
         std::optional<double> probability;
         if (!found_.design.untested) probability = found_.design.probability;
         bool const agrees = std::ranges::all_of(promised, &learn::ComparedLayer::agrees);

@@ -128,7 +128,6 @@ explains a command. Example:
     add_theory_trace(*theory, exit_code);
     add_theory_limits(*theory, exit_code);
     add_theory_friction(*theory, exit_code);
-    add_theory_design(*theory, exit_code);
     add_theory_batch(*theory, exit_code);
     add_theory_calibrate(*theory, exit_code);
 }

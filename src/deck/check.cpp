@@ -267,8 +267,8 @@ void check_unusual(std::vector<Finding>& findings, prepare::PreparedCase const& 
     for (theory::UnusualNumber const& one : theory::find_unusual(numbers)) {
         std::string const advice = one.slip.empty() ? one.usual : fmt::format("{}; {}", one.usual, one.slip);
         char const* const key = unusual_key(one.quantity, trough);
-        findings.push_back(one.is_too_small ? least(one.name, key, one.value, one.limit, 0, advice)
-                                            : most(one.name, key, one.value, one.limit, never, advice));
+        findings.push_back(one.is_too_small() ? least(one.name, key, one.value, one.limit, 0, advice)
+                                              : most(one.name, key, one.value, one.limit, never, advice));
         findings.back().unit = one.unit;
     }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "learn/design_model.hpp"
+#include "learn/speed_model.hpp"
 #include "learn/uncertain.hpp"
 
 #include <optional>
@@ -16,7 +16,7 @@ struct KnownGrains {
 
 /// The atlas of simulated layers as a model by which a machine can be designed. What is not known of the
 /// grains is in the middle of the atlas. What each may change at the layer, while the others stay, is part of
-/// the model's uncertainty: its `sources`, which add up in squares. Beyond the atlas untested() says so.
+/// the model's uncertainty: its sources, which add up in squares. Beyond the atlas untested() says so.
 /// @param discrepancy  standard deviation of what the atlas misses of a real layer, in velocity efficiency
 /// @param friction     of the material on the trough, at which that is looked at; 0: the middle of the atlas
 /// @throws core::InputError when the friction of the grains lies outside of the atlas

@@ -6,30 +6,17 @@
 #include "learn/corrected_model.hpp"
 #include "learn/given_quantities.hpp"
 #include "learn/machine_keys.hpp"
-#include "scenario/model/scenario.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 namespace vibrotrough::learn {
 namespace {
 
-/// The place of a quantity in atlas_parameters().
-enum Quantity : std::size_t {
-    friction,
-    grain_friction,
-    rolling_friction,
-    restitution,
-    depth,
-    inclination,
-    vibration_angle,
-    quantity_count,
-};
-using Given = std::array<std::optional<double>, quantity_count>;
+/// The properties of the layer, in the order of atlas_parameters().
+enum Quantity : std::size_t { friction, grain_friction, rolling_friction, restitution, depth };
 
 inference::Bounds bounds_of(atlas::Input input) {
     return {atlas::inputs()[input].low, atlas::inputs()[input].high};
@@ -42,23 +29,17 @@ inference::Bounds degrees_of(atlas::Input tangent) {
 
 class AtlasSpeedModel {
   public:
-    AtlasSpeedModel(double diameter, std::vector<std::string> const& free,
-                    std::map<std::string, double> const& fixed)
-        : diameter_(diameter) {
-        for (auto const& [name, value] : fixed) given_[index_of(name)] = value;
-        for (std::string const& name : free) free_.push_back(index_of(name));
-    }
+    AtlasSpeedModel(double diameter, GivenQuantities given) : diameter_(diameter), given_(std::move(given)) {}
 
     std::optional<ModelSpeed> operator()(std::span<double const> values,
                                          MeasuredSpeed const& measured) const {
-        Given all = given_;
-        for (std::size_t i = 0; i < free_.size(); ++i) all[free_[i]] = values[i];
-        atlas::Place const place = place_of(all, measured);
+        GivenQuantities::Values const all = given_.at(values);
+        theory::Drive const drive = given_.drive(all, measured);
+        atlas::Place const place = place_of(all, drive);
         if (!atlas::outside_ranges(place).empty()) return {};
         auto const answer = atlas::value_at(place);
         if (!answer) return {};
-        double const trough_speed = 2 * std::numbers::pi * measured.frequency * measured.amplitude /
-                                    std::hypot(1, place[atlas::tan_vibration_input]);
+        double const trough_speed = drive.trough_speed();
         double const numerics = atlas::numerical_error() / atlas::deviations_in_half_width;
         double const whole = answer->half_width / atlas::deviations_in_half_width;
         double const statistics = whole * whole - numerics * numerics;
@@ -68,16 +49,13 @@ class AtlasSpeedModel {
                           std::sqrt(common) * trough_speed};
     }
 
+    /// @param middle  of the free quantities
     /// @throws core::InputError when the atlas lacks a measurement, whatever the free quantities are
-    void check(MeasuredSpeed const& measured) const {
-        Given all = given_;
-        for (std::size_t const q : free_)
-            all[q] = (atlas_parameters()[q].prior.low + atlas_parameters()[q].prior.high) / 2;
-        atlas::Place const place = place_of(all, measured);
+    void check(MeasuredSpeed const& measured, std::span<double const> middle) const {
+        GivenQuantities::Values const all = given_.at(middle);
         // A free angle moves the throw number.
-        bool const may_move = std::ranges::find(free_, vibration_angle) != free_.end() ||
-                              std::ranges::find(free_, inclination) != free_.end();
-        for (atlas::Outside const& one : atlas::outside_ranges(place)) {
+        bool const may_move = given_.is_free("vibration_angle") || given_.is_free("inclination");
+        for (atlas::Outside const& one : atlas::outside_ranges(place_of(all, given_.drive(all, measured)))) {
             if (may_move && one.name == atlas::inputs()[atlas::throw_number_input].key) continue;
             throw core::InputError(
                 fmt::format("line {}: outside of the atlas: {}; leave the line out, or use the point mass",
@@ -85,31 +63,20 @@ class AtlasSpeedModel {
         }
     }
 
-    static std::size_t index_of(std::string const& name) {
-        auto const& known = atlas_parameters();
-        return static_cast<std::size_t>(std::ranges::find(known, name, &FreeParameter::name) - known.begin());
-    }
-
   private:
-    atlas::Place place_of(Given const& all, MeasuredSpeed const& measured) const {
-        double const beta = all[vibration_angle] ? *all[vibration_angle] * degree : *measured.vibration_angle;
-        double const alpha = all[inclination] ? *all[inclination] * degree : measured.inclination.value_or(0);
-        double const omega = 2 * std::numbers::pi * measured.frequency;
-        return {omega * omega * measured.amplitude * std::sin(beta) / (scenario::gravity * std::cos(alpha)),
-                std::tan(beta),
-                std::tan(alpha),
-                *all[friction],
-                measured.amplitude / diameter_,
-                *all[depth],
-                *all[grain_friction],
-                *all[rolling_friction],
-                *all[restitution]};
+    atlas::Place place_of(GivenQuantities::Values const& all, theory::Drive const& drive) const {
+        return {drive.throw_number(), std::tan(drive.vibration_angle), std::tan(drive.inclination),
+                *all[friction],       drive.amplitude / diameter_,     *all[depth],
+                *all[grain_friction], *all[rolling_friction],          *all[restitution]};
     }
 
     double diameter_;
-    Given given_;
-    std::vector<std::size_t> free_;
+    GivenQuantities given_;
 };
+
+FreeParameter const& parameter(std::string const& name) {
+    return *std::ranges::find(atlas_parameters(), name, &FreeParameter::name);
+}
 
 }  // namespace
 
@@ -134,18 +101,21 @@ std::vector<std::string> with_unknown_layer(std::vector<std::string> free,
     return free;
 }
 
-SpeedModel atlas_speed_model(double diameter, std::vector<std::string> const& free,
-                             std::map<std::string, double> const& fixed,
-                             std::vector<MeasuredSpeed> const& speeds) {
-    check_given(free, fixed, atlas_parameters(), "a layer of spheres", speeds);
+CalibrationModel atlas_speed_model(double diameter, std::vector<std::string> const& free,
+                                   std::map<std::string, double> const& fixed,
+                                   std::vector<MeasuredSpeed> const& speeds) {
+    GivenQuantities const given(free, fixed, atlas_parameters(), "a layer of spheres", speeds);
     for (auto const& [name, value] : fixed) {
-        auto const [low, high] = atlas_parameters()[AtlasSpeedModel::index_of(name)].prior;
+        auto const [low, high] = parameter(name).prior;
         if (value < low || value > high)
             throw core::InputError(
                 fmt::format("--fix {}={:g}: the atlas has {:.3g} to {:.3g}", name, value, low, high));
     }
-    AtlasSpeedModel const model(diameter, free, fixed);
-    for (MeasuredSpeed const& one : speeds) model.check(one);
+    std::vector<double> middle;
+    for (std::string const& name : free)
+        middle.push_back((parameter(name).prior.low + parameter(name).prior.high) / 2);
+    AtlasSpeedModel const model(diameter, given);
+    for (MeasuredSpeed const& one : speeds) model.check(one, middle);
     return model;
 }
 

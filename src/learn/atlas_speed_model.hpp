@@ -29,8 +29,8 @@ std::vector<std::string> with_unknown_layer(std::vector<std::string> free,
 ///                  nowhere is zero.
 /// @throws core::InputError when a name is unknown or given twice, a vibration angle is missing, or a
 /// measurement or a fixed value lies outside of the atlas
-SpeedModel atlas_speed_model(double diameter, std::vector<std::string> const& free,
-                             std::map<std::string, double> const& fixed,
-                             std::vector<MeasuredSpeed> const& speeds);
+CalibrationModel atlas_speed_model(double diameter, std::vector<std::string> const& free,
+                                   std::map<std::string, double> const& fixed,
+                                   std::vector<MeasuredSpeed> const& speeds);
 
 }  // namespace vibrotrough::learn

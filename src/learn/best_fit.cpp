@@ -1,6 +1,7 @@
 #include "core/error.hpp"
 #include "learn/calibration.hpp"
 #include "learn/joint_misfit.hpp"
+#include "scenario/reader/sample_cube.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ constexpr int starts = 5;
 /// The model's chi-square over the unit cube of the priors, as NLopt asks for it.
 class ChiSquare {
   public:
-    ChiSquare(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
+    ChiSquare(CalibrationModel const& model, std::vector<FreeParameter> const& parameters,
               std::vector<MeasuredSpeed> const& speeds, double common_error)
         : model_(model),
           parameters_(parameters),
@@ -44,34 +45,20 @@ class ChiSquare {
     }
 
   private:
-    SpeedModel const& model_;
+    CalibrationModel const& model_;
     std::vector<FreeParameter> const& parameters_;
     std::vector<MeasuredSpeed> const& speeds_;
     Eigen::MatrixXd common_errors_;
 };
 
-/// Points spread over the unit cube: the additive recurrence of M. Roberts' generalised golden ratio.
-std::vector<std::vector<double>> spread_points(std::size_t dimensions, int count) {
-    double ratio = 2;
-    for (int i = 0; i < 60; ++i) ratio = std::pow(1 + ratio, 1 / static_cast<double>(dimensions + 1));
-    std::vector<std::vector<double>> points;
-    for (int i = 1; i <= count; ++i) {
-        points.emplace_back();
-        for (std::size_t d = 1; d <= dimensions; ++d) {
-            double const x = 0.5 + i * std::pow(ratio, -static_cast<double>(d));
-            points.back().push_back(x - std::floor(x));
-        }
-    }
-    return points;
-}
-
 }  // namespace
 
-BestFit best_fit(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
+BestFit best_fit(CalibrationModel const& model, std::vector<FreeParameter> const& parameters,
                  std::vector<MeasuredSpeed> const& speeds, double common_error) {
     ChiSquare chi_square(model, parameters, speeds, common_error);
     std::vector<std::pair<double, std::vector<double>>> points;
-    for (auto& point : spread_points(parameters.size(), 400)) {
+    for (auto& point :
+         scenario::sample_cube(scenario::SampleMethod::sobol, 400, static_cast<int>(parameters.size()), 1)) {
         double const value = chi_square(point);
         if (value < impossible) points.emplace_back(value, std::move(point));
     }

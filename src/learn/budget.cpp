@@ -21,18 +21,16 @@ double root_mean_square(SpeedDistribution const& speeds, std::vector<double> con
 }
 
 /// What the model itself, its unknown grains and the settings of the machine leave open.
-std::vector<SourceInParts> sources_in_parts(RiskSearch const& search, DesignModel const& model,
-                                            DesignLayer const& layer, SpeedDistribution const& speeds) {
+std::vector<SourceInParts> sources_in_parts(ModelEfficiency const& median, std::string const& model,
+                                            double trough_speed, SpeedDistribution const& speeds) {
     std::size_t const count = speeds.means.size();
     std::vector<SourceInParts> all;
-    if (model.sources)
-        for (OwnSource const& one : model.sources(layer))
-            all.push_back({one.name, std::vector<double>(count, one.sd * layer.drive.trough_speed())});
-    SettingSpread const spread = search.spread_of_settings(layer, model);
-    all.push_back({"stroke", std::vector<double>(count, spread.amplitude)});
-    all.push_back({"vibration angle", std::vector<double>(count, spread.vibration_angle)});
+    for (OwnSource const& one : median.sources)
+        all.push_back({one.name, std::vector<double>(count, one.sd * trough_speed)});
+    all.push_back({"stroke", std::vector<double>(count, speeds.settings.amplitude)});
+    all.push_back({"vibration angle", std::vector<double>(count, speeds.settings.vibration_angle)});
     std::vector<double> density;
-    for (double const mean : speeds.means) density.push_back(spread.bulk_density * std::abs(mean));
+    for (double const mean : speeds.means) density.push_back(speeds.settings.bulk_density * std::abs(mean));
     all.push_back({"bulk density", density});
     std::vector<double> rest;
     for (std::size_t i = 0; i < count; ++i) {
@@ -40,7 +38,7 @@ std::vector<SourceInParts> sources_in_parts(RiskSearch const& search, DesignMode
         for (SourceInParts const& one : all) variance -= one.sds[i] * one.sds[i];
         rest.push_back(std::sqrt(std::max(0.0, variance)));
     }
-    all.push_back({fmt::format("error of {}", model.name), rest});
+    all.push_back({fmt::format("error of {}", model), rest});
     return all;
 }
 
@@ -54,24 +52,21 @@ SpeedDistribution without(SpeedDistribution speeds, SourceInParts const& source)
 
 }  // namespace
 
-std::vector<BudgetShare> budget_of(RiskSearch const& search, DesignModel const& model,
-                                   DesignLayer const& layer) {
-    DesignTask const& task = search.task();
-    theory::Drive const& drive = layer.drive;
-    SpeedDistribution const speeds = search.speeds(layer, model);
-    auto const median = model.at(layer, task.friction.median);
-    if (!median || std::ranges::any_of(speeds.means, [](double mean) { return mean < -100; })) return {};
+std::vector<BudgetShare> budget_of(DesignTask const& task, DesignLayer const& layer, std::string const& model,
+                                   ModelEfficiency const& median, SpeedDistribution const& speeds) {
+    if (std::ranges::any_of(speeds.means, [](double mean) { return mean < -100; })) return {};
+    double const trough_speed = layer.drive.trough_speed();
     double const flow = task.bulk_density * task.width * layer.depth;
     double const sure = speeds.exceeded_with(task.confidence);
     std::vector<BudgetShare> all;
     auto const add = [&](std::string const& source, double sd, SpeedDistribution const& known) {
-        if (sd > 1e-9 * drive.trough_speed())
+        if (sd > 1e-9 * trough_speed)
             all.push_back({source, flow * sd, flow * (known.exceeded_with(task.confidence) - sure)});
     };
     SpeedDistribution const one_friction{
-        {1}, {median->efficiency * drive.trough_speed()}, {root_mean_square(speeds, speeds.sds)}};
+        {1}, {median.efficiency * trough_speed}, {root_mean_square(speeds, speeds.sds)}};
     add("friction on the trough", speeds.sd_of_means(), one_friction);
-    for (SourceInParts const& one : sources_in_parts(search, model, layer, speeds))
+    for (SourceInParts const& one : sources_in_parts(median, model, trough_speed, speeds))
         add(one.name, root_mean_square(speeds, one.sds), without(speeds, one));
     std::ranges::sort(all, std::greater(), &BudgetShare::sd);
     return all;

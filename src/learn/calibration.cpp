@@ -36,8 +36,9 @@ Estimate estimate(FreeParameter const& parameter, std::vector<double> draws, dou
     return e;
 }
 
-std::vector<Misfit> misfits(SpeedModel const& model, inference::Sample const& sample, std::size_t parameters,
-                            std::vector<MeasuredSpeed> const& speeds, Eigen::MatrixXd const& common_errors) {
+std::vector<Misfit> misfits(CalibrationModel const& model, inference::Sample const& sample,
+                            std::size_t parameters, std::vector<MeasuredSpeed> const& speeds,
+                            Eigen::MatrixXd const& common_errors) {
     int const total = sample.chains * sample.draws;
     int const step = std::max(1, total / draws_for_misfits);
     std::vector<Misfit> result;
@@ -106,7 +107,7 @@ std::vector<inference::Bounds> highest_density_ranges(std::vector<double> const&
     return ranges;
 }
 
-Calibration calibrate(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
+Calibration calibrate(CalibrationModel const& model, std::vector<FreeParameter> const& parameters,
                       std::vector<MeasuredSpeed> const& speeds, CalibrationSettings const& settings) {
     BestFit const best = best_fit(model, parameters, speeds, settings.common_error);
     bool const estimated = settings.discrepancy == Discrepancy::estimated;

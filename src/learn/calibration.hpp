@@ -33,7 +33,7 @@ struct ModelSpeed {
 
 /// The model's answer for one value per free parameter, or nothing when the material has no steady speed
 /// there.
-using SpeedModel =
+using CalibrationModel =
     std::function<std::optional<ModelSpeed>(std::span<double const> values, MeasuredSpeed const&)>;
 
 /// Whether measurements and model may differ by more than the uncertainties.
@@ -111,7 +111,7 @@ struct Calibration {
 /// speed, the likelihood is zero.
 ///
 /// @throws core::InputError when the model has no steady speed for any value within the prior
-Calibration calibrate(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
+Calibration calibrate(CalibrationModel const& model, std::vector<FreeParameter> const& parameters,
                       std::vector<MeasuredSpeed> const& speeds, CalibrationSettings const& settings = {});
 
 /// The values of the free parameters, within their priors, at which the model without discrepancy fits best:
@@ -119,7 +119,7 @@ Calibration calibrate(SpeedModel const& model, std::vector<FreeParameter> const&
 /// prior.
 /// @param common_error  as CalibrationSettings
 /// @throws core::InputError as calibrate
-BestFit best_fit(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
+BestFit best_fit(CalibrationModel const& model, std::vector<FreeParameter> const& parameters,
                  std::vector<MeasuredSpeed> const& speeds, double common_error = 0);
 
 /// The shortest set of ranges that holds 95 % of the draws, from a histogram of 50 bins. Gaps of fewer than

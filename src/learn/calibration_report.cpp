@@ -1,7 +1,5 @@
 #include "learn/calibration_report.hpp"
 
-#include "learn/model_errors.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -102,42 +100,21 @@ std::string note_of(Estimate const& e) {
     return list(ranges);
 }
 
-/// What layers say of the error of the point mass where the speeds were measured; nothing when a speed has no
-/// vibration angle or no layer tells it.
-std::optional<std::string> known_misses(Calibration const& c) {
+/// By how much the layers of the atlas miss the point mass where the speeds were measured.
+std::string known_misses(Calibration const& c) {
     double least = 1, most = 0;
-    if (c.holds_layer_errors) {
-        // Smaller ones are those of settings that the atlas does not know, up to rounding.
-        auto const is_known = [](Misfit const& m) { return m.common_error >= discrepancy_prior.low; };
-        auto const unknown = std::ranges::count_if(c.misfits, std::not_fn(is_known));
-        for (Misfit const& m : c.misfits) {
-            if (is_known(m)) least = std::min(least, m.common_error);
-            most = std::max(most, m.common_error);
-        }
-        return fmt::format(
-            "The intervals hold that the point mass misses layers of spheres at these settings by {:.2g} to "
-            "{:.2g} (root mean square in velocity efficiency, by the atlas{}); where it is exact, as for a "
-            "block, write --common-error 0.",
-            least, most, unknown > 0 ? fmt::format(", which does not know {} of them", unknown) : "");
-    }
+    // Smaller ones are those of settings that the atlas does not know, up to rounding.
+    auto const is_known = [](Misfit const& m) { return m.common_error >= discrepancy_prior.low; };
+    auto const unknown = std::ranges::count_if(c.misfits, std::not_fn(is_known));
     for (Misfit const& m : c.misfits) {
-        if (!m.measured.vibration_angle) return {};
-        double const alpha = m.measured.inclination.value_or(0);
-        theory::Drive const drive{m.measured.frequency, m.measured.amplitude, *m.measured.vibration_angle,
-                                  alpha};
-        auto const sd = known_error(point_mass_errors(), drive.throw_number(), std::tan(alpha), {});
-        if (!sd) return {};
-        least = std::min(least, *sd);
-        most = std::max(most, *sd);
+        if (is_known(m)) least = std::min(least, m.common_error);
+        most = std::max(most, m.common_error);
     }
     return fmt::format(
-        "At these throw numbers and slopes simulated layers whose grains do not roll missed the point mass "
-        "by "
-        "{:.2g} to {:.2g} (standard deviation in velocity efficiency, validation/model_errors).{}",
-        least, most,
-        c.discrepancy && c.discrepancy->high < least ? " The model discrepancy found here is smaller, so "
-                                                       "that the intervals may be too narrow for a layer."
-                                                     : "");
+        "The intervals hold that the point mass misses layers of spheres at these settings by {:.2g} to "
+        "{:.2g} (root mean square in velocity efficiency, by the atlas{}); where it is exact, as for a "
+        "block, write --common-error 0.",
+        least, most, unknown > 0 ? fmt::format(", which does not know {} of them", unknown) : "");
 }
 
 }  // namespace
@@ -171,9 +148,7 @@ std::vector<std::string> verdict(Calibration const& c, ModelName const& model) {
             "do not use these "
             "numbers, and narrow the ranges with --prior or free fewer quantities.");
     }
-    if (model.whole == "the point mass") {
-        if (auto const told = known_misses(c)) sentences.push_back(*told);
-    }
+    if (c.holds_layer_errors) sentences.push_back(known_misses(c));
     return sentences;
 }
 

@@ -40,38 +40,38 @@ Eigen::VectorXd place_of(theory::Drive const& d, double friction, double diamete
 }
 
 /// A model and what simulated layers say of its error, in units of the error that it expects.
-class Correction {
+class CorrectedSpeeds : public SpeedModel {
   public:
-    Correction(DesignModel model, std::vector<SimulatedLayer> const& layers, double diameter)
-        : model_(std::move(model)), diameter_(diameter), error_(process(layers)) {
+    CorrectedSpeeds(DesignModel model, std::vector<SimulatedLayer> const& layers, double diameter,
+                    double confidence)
+        : model_(std::move(model)), diameter_(diameter), confidence_(confidence), error_(process(layers)) {
         for (SimulatedLayer const& layer : layers)
             numerical_error_ = std::max(numerical_error_, layer.numerical_error);
     }
 
-    std::optional<ModelEfficiency> at(DesignLayer const& layer, double friction) const {
-        return corrected(model_.at(layer, friction), layer.drive, friction);
-    }
-    std::optional<ModelEfficiency> nearly_at(DesignLayer const& layer, double friction) const {
-        return corrected(model_.quickly_at(layer, friction), layer.drive, friction);
-    }
-    std::optional<std::string> untested(theory::Drive const& drive, double friction,
-                                        std::optional<double> depth) const {
-        if (error_at(drive, friction).sd <= known_share) return {};
-        return model_.untested(drive, friction, depth);
-    }
-
-  private:
-    std::optional<ModelEfficiency> corrected(std::optional<ModelEfficiency> const& value,
-                                             theory::Drive const& drive, double friction) const {
+    std::optional<ModelEfficiency> speed(DesignLayer const& layer, double friction,
+                                         Precision precision) override {
+        auto const value = model_.at(layer, friction, precision);
         if (!value) return {};
-        double const expected = expected_error(drive, *value);
-        auto const error = error_at(drive, friction);
+        double const expected = expected_error(layer.drive, *value);
+        auto const error = error_at(layer.drive, friction);
         return ModelEfficiency{value->efficiency + expected * error.mean, expected * error.sd,
                                numerical_error_ / atlas::deviations_in_half_width};
     }
+    Whereabouts where(theory::Drive const& drive, double friction,
+                      std::optional<double> depth) const override {
+        Whereabouts found{model_.excess(drive)};
+        if (error_at(drive, friction).sd > known_share)
+            found.why_not = model_.untested(drive, friction, depth);
+        return found;
+    }
+    void narrow(theory::DriveSpace& space, theory::Range& depth) const override {
+        model_.speeds->narrow(space, depth);
+    }
 
+  private:
     double expected_error(theory::Drive const& drive, ModelEfficiency const& value) const {
-        return std::max(least_error, std::hypot(model_.missed(drive, {}), value.sd()));
+        return std::max(least_error, std::hypot(model_.missed(drive, {}, confidence_), value.sd()));
     }
 
     inference::ProcessValue error_at(theory::Drive const& drive, double friction) const {
@@ -107,7 +107,7 @@ class Correction {
     }
 
     DesignModel model_;
-    double diameter_;
+    double diameter_, confidence_;
     inference::GaussianProcess error_;
     double numerical_error_ = 0;
 };
@@ -115,24 +115,13 @@ class Correction {
 }  // namespace
 
 DesignModel corrected_design_model(DesignModel const& model, std::vector<SimulatedLayer> const& layers,
-                                   double diameter) {
-    auto const correction = std::make_shared<Correction const>(model, layers, diameter);
-    DesignModel corrected{.name = model.name, .discrepancy = 0};
-    corrected.at = [correction](DesignLayer const& layer, double friction) {
-        return correction->at(layer, friction);
-    };
-    corrected.nearly_at = [correction](DesignLayer const& layer, double friction) {
-        return correction->nearly_at(layer, friction);
-    };
-    corrected.outside = [correction](theory::Drive const& d, double friction, std::optional<double> depth) {
-        return correction->untested(d, friction, depth);
-    };
-    corrected.narrowed = model.narrowed;
-    corrected.excess = model.excess;
-    corrected.depths = model.depths;
-    corrected.known_range = model.known_range;
-    corrected.remarks = model.remarks;
-    return corrected;
+                                   double diameter, double confidence) {
+    return {.name = model.name,
+            .discrepancy = 0,
+            .speeds = std::make_shared<CorrectedSpeeds>(model, layers, diameter, confidence),
+            .known_range = model.known_range,
+            .is_slow = true,
+            .remarks = model.remarks};
 }
 
 }  // namespace vibrotrough::learn

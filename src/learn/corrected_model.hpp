@@ -1,6 +1,6 @@
 #pragma once
 
-#include "learn/design_model.hpp"
+#include "learn/speed_model.hpp"
 
 #include <vector>
 
@@ -35,7 +35,8 @@ struct SimulatedLayer {
 /// says.
 /// @param layers    at least one
 /// @param diameter  m, of the grains
+/// @param confidence  up to which what the model misses is to be held, as DesignModel::missed()
 DesignModel corrected_design_model(DesignModel const& model, std::vector<SimulatedLayer> const& layers,
-                                   double diameter);
+                                   double diameter, double confidence = usual_confidence);
 
 }  // namespace vibrotrough::learn

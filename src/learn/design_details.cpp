@@ -2,9 +2,10 @@
 
 #include "core/text.hpp"
 #include "learn/driven_design.hpp"
-#include "learn/makers_rule.hpp"
+#include "learn/rules_of_thumb.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -16,17 +17,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr char const* source_of_daesung = "Daesung Machinery, dsv.co.kr/vibrating_machinery_vc_06.html";
-constexpr char const* source_of_vdi = "after VDI 2333, vibrationsfoerdertechnik.de";
 constexpr double worth_explaining = 0.1;  // of the speed
 
-/// Why a rule that says speeds from `low` to `high` m/s differs from the answer; nothing where it does not by
-/// more than a tenth.
-std::optional<std::string> why_different(RiskDesign const& d, double low, double high,
-                                         std::string const& reason) {
+/// A rule of thumb of makers beside the answer.
+struct Rule {
+    char const *formula, *source;
+    double speed;      ///< m/s
+    double low, high;  ///< m/s, what is used of it in practice
+    std::string told;  ///< in the answer, without the end of the line
+    std::string why_different;
+};
+
+/// Why a rule differs from the answer; empty where it does not by more than a tenth.
+std::string why_different(RiskDesign const& d, double low, double high, std::string const& reason) {
     ModelForecast const& answer = d.forecasts.front();
     double const speed = answer.median_speed;
-    if (low <= (1 + worth_explaining) * speed && high >= (1 - worth_explaining) * speed) return {};
+    if (low <= (1 + worth_explaining) * speed && high >= (1 - worth_explaining) * speed) return "";
     double const nearest = low > speed ? low : high;
     return fmt::format("That is {:.0f} % {} than {} says ({:.3g} m/s): {}.",
                        100 * std::abs(nearest / speed - 1), nearest > speed ? "more" : "less", answer.model,
@@ -34,23 +40,40 @@ std::optional<std::string> why_different(RiskDesign const& d, double low, double
 }
 
 /// The rule of Daesung is a share of the trough's speed, which throw number and friction do not change.
-std::optional<std::string> why_daesung_differs(RiskDesign const& d) {
-    double const rule = rule_of_daesung(d.drive), trough = d.drive.trough_speed();
-    return why_different(
-        d, 0.7 * rule, 0.8 * rule,
-        fmt::format("the rule is {:.2g} to {:.2g} of the trough's largest speed along itself at every throw "
-                    "number, friction and depth, and here the answer is {:.2g} of it, at throw number {:.3g}",
-                    0.7 * rule / trough, 0.8 * rule / trough, d.forecasts.front().median_speed / trough,
-                    d.throw_number));
+Rule daesung(RiskDesign const& d) {
+    double const rule = rule_of_daesung(d.drive), low = 0.7 * rule, high = 0.8 * rule;
+    double const trough = d.drive.trough_speed();
+    char const* const source = "Daesung Machinery, dsv.co.kr/vibrating_machinery_vc_06.html";
+    auto const reason = fmt::format(
+        "the rule is {:.2g} to {:.2g} of the trough's largest speed along itself at every throw number, "
+        "friction and depth, and here the answer is {:.2g} of it, at throw number {:.3g}",
+        low / trough, high / trough, d.forecasts.front().median_speed / trough, d.throw_number);
+    return {
+        "v = 3.81 N S, of which 70 to 80 % are used in practice",
+        source,
+        rule,
+        low,
+        high,
+        fmt::format("{:.3g} m/s, of which 70 to 80 % are used in practice: {:.3g} to {:.3g} m/s (v = 3.81 "
+                    "N S;\n  {})",
+                    rule, low, high, source),
+        why_different(d, low, high, reason)};
 }
 
-std::optional<std::string> why_no_slip_differs(RiskDesign const& d) {
+Rule without_slip(RiskDesign const& d) {
     double const rule = speed_without_slip(d.drive);
-    if (rule <= 0) return {};
-    return why_different(
-        d, rule, rule,
-        "the rule lets the material move with the trough whenever it touches it, whatever the "
-        "friction, and flies it as a single mass");
+    char const* const source = "after VDI 2333, vibrationsfoerdertechnik.de";
+    Rule found{"no slip, flight of n cycles: v = g n^2 cot(beta) / (2 f)", source, rule, rule, rule, "", ""};
+    if (rule <= 0) {
+        found.told = fmt::format("none for a trough that does not throw ({})", source);
+        return found;
+    }
+    found.told = fmt::format("{:.3g} m/s without slip: v = g n^2 cot(beta) / (2 f) ({})", rule, source);
+    found.why_different =
+        why_different(d, rule, rule,
+                      "the rule lets the material move with the trough whenever it touches it, whatever the "
+                      "friction, and flies it as a single mass");
+    return found;
 }
 
 /// Of the variance of the mass flow.
@@ -59,15 +82,8 @@ double share_of(BudgetShare const& one, ModelForecast const& f) {
 }
 
 char const* source_of(AddedMassSource source) {
-    switch (source) {
-        case AddedMassSource::given:
-            return "as given";
-        case AddedMassSource::atlas:
-            return "the atlas of layers";
-        case AddedMassSource::maker:
-            break;
-    }
-    return "as makers count";
+    static constexpr std::array names{"as makers count", "as given", "the atlas of layers"};
+    return names.at(static_cast<std::size_t>(source));
 }
 
 /// The exciter of a machine under its layer.
@@ -163,36 +179,27 @@ Json exciter_json(DesignTask const& t, RiskDesign const& d) {
 }
 
 std::string rules_text(RiskDesign const& d) {
-    double const daesung = rule_of_daesung(d.drive), no_slip = speed_without_slip(d.drive);
-    auto const explained = [](std::optional<std::string> const& why) {
-        return why ? "  " + *why + "\n" : std::string();
-    };
-    std::string text = fmt::format(
-        "\nRules of thumb, for comparison:\n  {:.3g} m/s, of which 70 to 80 % are used in "
-        "practice: {:.3g} to {:.3g} m/s (v = 3.81 N S;\n  {})\n",
-        daesung, 0.7 * daesung, 0.8 * daesung, source_of_daesung);
-    text += explained(why_daesung_differs(d));
-    text += no_slip > 0 ? fmt::format("  {:.3g} m/s without slip: v = g n^2 cot(beta) / (2 f) ({})\n",
-                                      no_slip, source_of_vdi)
-                        : fmt::format("  none for a trough that does not throw ({})\n", source_of_vdi);
-    return text + explained(why_no_slip_differs(d));
+    std::string text = "\nRules of thumb, for comparison:\n";
+    for (Rule const& rule : {daesung(d), without_slip(d)}) {
+        text += "  " + rule.told + "\n";
+        if (!rule.why_different.empty()) text += "  " + rule.why_different + "\n";
+    }
+    return text;
 }
 
 Json rules_json(RiskDesign const& d) {
-    double const daesung = rule_of_daesung(d.drive);
-    auto const known = [](std::optional<std::string> const& why) { return why ? Json(*why) : Json(nullptr); };
-    return {{{"rule", "v = 3.81 N S, of which 70 to 80 % are used in practice"},
-             {"source", source_of_daesung},
-             {"speed_m_per_s", daesung},
-             {"low_m_per_s", 0.7 * daesung},
-             {"high_m_per_s", 0.8 * daesung},
-             {"why_different", known(why_daesung_differs(d))}},
-            {{"rule", "no slip, flight of n cycles: v = g n^2 cot(beta) / (2 f)"},
-             {"source", source_of_vdi},
-             {"speed_m_per_s", speed_without_slip(d.drive)},
-             {"low_m_per_s", nullptr},
-             {"high_m_per_s", nullptr},
-             {"why_different", known(why_no_slip_differs(d))}}};
+    Json list = Json::array();
+    for (Rule const& rule : {daesung(d), without_slip(d)}) {
+        bool const has_range = rule.low < rule.high;
+        list.push_back(
+            {{"rule", rule.formula},
+             {"source", rule.source},
+             {"speed_m_per_s", rule.speed},
+             {"low_m_per_s", has_range ? Json(rule.low) : Json(nullptr)},
+             {"high_m_per_s", has_range ? Json(rule.high) : Json(nullptr)},
+             {"why_different", rule.why_different.empty() ? Json(nullptr) : Json(rule.why_different)}});
+    }
+    return list;
 }
 
 }  // namespace vibrotrough::learn

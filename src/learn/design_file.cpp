@@ -20,7 +20,9 @@ constexpr double share_of_ends = 1.96 / 3;
 /// What the page shows where the design knows nothing of the grains.
 constexpr double usual_diameter_mm = 3;
 
-Json or_null(std::optional<double> value) {
+/// A number; null where it is not known.
+Json if_known(Json const& from, char const* key) {
+    auto const value = note::known_number(from, key);
     return value ? Json(*value) : Json(nullptr);
 }
 
@@ -58,16 +60,16 @@ Json models_of(Json const& design) {
                               {"is_beside", is_beside},
                               {"speed", note::number(one, "median_speed_m_per_s")},
                               {"flow", note::number(one, "mass_flow_t_per_h")},
-                              {"flow_low", or_null(note::known_number(one, "mass_flow_low_t_per_h"))},
-                              {"flow_high", or_null(note::known_number(one, "mass_flow_high_t_per_h"))},
-                              {"probability", or_null(note::known_number(one, "probability"))}});
+                              {"flow_low", if_known(one, "mass_flow_low_t_per_h")},
+                              {"flow_high", if_known(one, "mass_flow_high_t_per_h")},
+                              {"probability", if_known(one, "probability")}});
     }
     return models;
 }
 
 Json machine_of(Json const& design, Json const& drive, Json const& models) {
     return {{"settings", settings_of(design, drive)},
-            {"probability", or_null(note::known_number(drive, "probability"))},
+            {"probability", if_known(drive, "probability")},
             {"models", models}};
 }
 

@@ -5,7 +5,7 @@
 #include "learn/driven_design.hpp"
 #include "learn/machine_keys.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -132,41 +132,42 @@ std::string row_of(ModelForecast const& f, bool is_known) {
 
 /// The machines for the speeds of the drive that can be had; empty when any can.
 std::string speeds_text(RiskDesign const& d) {
-    if (d.speeds_tried.empty()) return "";
+    if (d.choices.empty()) return "";
     std::string text = fmt::format("\n{:<24} {:>9} {:>9} {:>10} {:>17} {:>12}\n", "speed of the drive",
                                    "stroke", "sure", "layer", "machine number", "probability");
     text += fmt::format("{:<24} {:>9} {:>9} {:>10}\n", "1/min", "mm", "m/s", "mm");
-    for (SpeedTried const& one : d.speeds_tried) {
+    for (Choice const& one : d.choices) {
         auto const choice = [](double value) { return value > 0 ? fmt::format("{:.4g}", value) : "any"; };
         std::string const speed = choice(60 * one.frequency), stroke = choice(2e3 * one.amplitude);
-        if (one.why_none) {
-            text += fmt::format("{:<24} {:>9} {}\n", speed, stroke, *one.why_none);
+        if (!one.design) {
+            text += fmt::format("{:<24} {:>9} {}\n", speed, stroke, one.why_none);
             continue;
         }
-        auto const known = [&](std::string const& words) { return one.untested ? "not known" : words; };
+        RiskDesign const& its = *one.design;
+        auto const known = [&](std::string const& words) { return its.untested ? "not known" : words; };
         text += fmt::format("{:<24} {:>9} {:>9} {:>10.4g} {:>17.3g} {:>12}\n", speed, stroke,
-                            known(fmt::format("{:.3g}", one.sure_speed)), 1e3 * one.depth, one.machine_number,
-                            known(fmt::format("{:.1f} %", 100 * one.probability)));
+                            known(fmt::format("{:.3g}", its.sure_speed)), 1e3 * its.depth, its.machine_number,
+                            known(fmt::format("{:.1f} %", 100 * its.probability)));
     }
     return text;
 }
 
-Json as_json(SpeedTried const& one) {
-    Json json{{"rpm", 60 * one.frequency}, {"feasible", one.feasible}};
-    if (one.why_none) {
-        json["why_none"] = *one.why_none;
+Json as_json(Choice const& one) {
+    Json json{{"rpm", 60 * one.frequency}, {"feasible", one.design && one.design->feasible}};
+    if (!one.design) {
+        json["why_none"] = one.why_none;
         if (one.amplitude > 0) json["stroke_mm"] = 2e3 * one.amplitude;
         return json;
     }
-    auto const known = [&](double value) { return one.untested ? Json(nullptr) : Json(value); };
+    RiskDesign const& its = *one.design;
     json["stroke_mm"] = 2e3 * one.amplitude;
-    json["sure_speed_m_per_s"] = known(one.sure_speed);
-    json["layer_depth_mm"] = 1e3 * one.depth;
-    json["probability"] = known(one.probability);
-    json["machine_number"] = one.machine_number;
-    json["landing_speed_m_per_s"] = one.landing_speed;
-    json["vibration_angle_deg"] = one.vibration_angle / degree;
-    json["inclination_deg"] = one.inclination / degree;
+    json["sure_speed_m_per_s"] = if_known(its, its.sure_speed);
+    json["layer_depth_mm"] = 1e3 * its.depth;
+    json["probability"] = if_known(its, its.probability);
+    json["machine_number"] = its.machine_number;
+    json["landing_speed_m_per_s"] = its.landing_speed;
+    json["vibration_angle_deg"] = its.drive.vibration_angle / degree;
+    json["inclination_deg"] = its.drive.inclination / degree;
     json["rank"] = one.rank;
     return json;
 }
@@ -192,17 +193,8 @@ Json as_json(DesignTask const& t) {
 }  // namespace
 
 std::string name_of(Objective objective) {
-    switch (objective) {
-        case Objective::fastest:
-            return "fastest";
-        case Objective::gentlest_landing:
-            return "gentlest-landing";
-        case Objective::least_machine_number:
-            return "least-machine-number";
-        case Objective::least_power:
-            return "least-power";
-    }
-    return "";
+    static constexpr std::array names{"fastest", "gentlest-landing", "least-machine-number", "least-power"};
+    return names.at(static_cast<std::size_t>(objective));
 }
 
 std::string first_sentence(DesignTask const& t, RiskDesign const& d) {
@@ -294,7 +286,7 @@ Json design_json(DesignTask const& t, RiskDesign const& d) {
               {"warnings", d.warnings}};
     for (ModelForecast const& f : d.forecasts) json["models"].push_back(as_json(f, !d.untested));
     for (ModelForecast const& f : d.beside) json["models_beside"].push_back(as_json(f, !f.untested));
-    for (SpeedTried const& one : d.speeds_tried) json["speeds_compared"].push_back(as_json(one));
+    for (Choice const& one : d.choices) json["speeds_compared"].push_back(as_json(one));
     return json;
 }
 

@@ -4,7 +4,7 @@
 
 namespace vibrotrough::learn {
 
-std::optional<JointMisfit> joint_misfit(SpeedModel const& model, std::span<double const> values,
+std::optional<JointMisfit> joint_misfit(CalibrationModel const& model, std::span<double const> values,
                                         std::vector<MeasuredSpeed> const& speeds, double discrepancy,
                                         Eigen::MatrixXd const& common_errors) {
     JointMisfit sum{};

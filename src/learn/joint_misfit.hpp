@@ -21,7 +21,7 @@ struct JointMisfit {
 ///     det C = det D det A.
 /// @param discrepancy    of the model, in velocity efficiency
 /// @param common_errors  likewise: a row for each speed, and a column for each error
-std::optional<JointMisfit> joint_misfit(SpeedModel const& model, std::span<double const> values,
+std::optional<JointMisfit> joint_misfit(CalibrationModel const& model, std::span<double const> values,
                                         std::vector<MeasuredSpeed> const& speeds, double discrepancy,
                                         Eigen::MatrixXd const& common_errors);
 

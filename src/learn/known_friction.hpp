@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/drive_search.hpp"
+#include "theory/drive.hpp"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "learn/design_model.hpp"
+#include "learn/speed_model.hpp"
 
 #include <functional>
 #include <optional>

@@ -22,15 +22,6 @@ constexpr unsigned domain_seed = 20261122;
 /// A case that goes on is to have so much of its half-width, which doubles its packings.
 constexpr double narrowing = 0.7;
 
-/// What a step would bring, for comparing candidates.
-struct Candidate {
-    atlas::SurfacePoint point;  ///< as if it were known already
-    std::string case_id;        ///< of a case that goes on
-    double wanted;              ///< half-width of the case
-    double core_time;           ///< s
-    double worth = 0;           ///< reduction of the relative variances per core-second
-};
-
 double median(std::vector<double> values) {
     auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::ranges::nth_element(values, middle);
@@ -154,24 +145,18 @@ bool Learner::has_reached(LearnStatus const& status, LearnGoal const& goal) {
            status.quality.points >= status.least_points;
 }
 
-std::vector<LearnStep> Learner::choose() const {
-    atlas::Surface believed = *surface_;
-    std::vector<Candidate> candidates;
+std::vector<Learner::Candidate> Learner::candidates() const {
+    std::vector<Candidate> all;
     std::vector<double> times;
-    double spent = 0;
-    for (auto const& [id, time] : core_times_) {
-        spent += time;
-        times.push_back(time);
-    }
+    for (auto const& [id, time] : core_times_) times.push_back(time);
     double const usual = median(times);
-    for (DomainPoint const& point : domain_) {
-        double const wanted = std::max(goal_.half_width, plan_.cases.front().scenario().measure.half_width);
-        candidates.push_back(
-            {{"", point.place, point.theory, believed.at(point.place, point.theory).efficiency, wanted},
+    double const first = std::max(goal_.half_width, plan_.cases.front().scenario().measure.half_width);
+    for (DomainPoint const& point : domain_)
+        all.push_back(
+            {{"", point.place, point.theory, surface_->at(point.place, point.theory).efficiency, first},
              "",
-             wanted,
+             first,
              usual});
-    }
     for (atlas::SurfacePoint const& point : points_.points) {
         auto const planned = std::ranges::find(plan_.cases, point.case_id, &campaign::PlannedCase::id);
         double const wanted = narrowing * point.half_width;
@@ -184,11 +169,19 @@ std::vector<LearnStep> Learner::choose() const {
         double const equivalent =
             1 / std::sqrt(1 / (wanted * wanted) - 1 / (point.half_width * point.half_width));
         double const more = core_times_.at(point.case_id) * (1 / (narrowing * narrowing) - 1);
-        candidates.push_back({{point.case_id, point.place, point.theory, point.efficiency, equivalent},
-                              point.case_id,
-                              wanted,
-                              more});
+        all.push_back({{point.case_id, point.place, point.theory, point.efficiency, equivalent},
+                       point.case_id,
+                       wanted,
+                       more});
     }
+    return all;
+}
+
+std::vector<LearnStep> Learner::choose() const {
+    atlas::Surface believed = *surface_;
+    std::vector<Candidate> candidates = this->candidates();
+    double spent = 0;
+    for (auto const& [id, time] : core_times_) spent += time;
     std::vector<LearnStep> steps;
     while (static_cast<int>(steps.size()) < goal_.batch && !candidates.empty()) {
         DomainCertainty const now = certainty(believed);

@@ -94,6 +94,15 @@ class Learner {
         atlas::Place place;
         double theory;
     };
+    /// What a step would bring, for comparing candidates.
+    struct Candidate {
+        atlas::SurfacePoint point;  ///< as if it were known already
+        std::string case_id;        ///< of a case that goes on
+        double wanted;              ///< half-width of the case
+        double core_time;           ///< s
+        double worth = 0;           ///< reduction of the relative variances per core-second
+    };
+    std::vector<Candidate> candidates() const;
     std::vector<DomainPoint> make_domain() const;
     DomainCertainty certainty(atlas::Surface const& surface) const;
 

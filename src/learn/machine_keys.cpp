@@ -2,6 +2,8 @@
 
 #include "scenario/model/scenario.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <variant>
 
 namespace vibrotrough::learn {
@@ -10,6 +12,11 @@ scenario::Key const* machine_key(std::string_view path) {
     scenario::Key const* const key = scenario::find_key(path);
     bool const is_of_machine = key != nullptr && section_of(*key) == "trough" && !key->group.empty();
     return is_of_machine ? key : nullptr;
+}
+
+theory::PointMass point_of(theory::Drive const& drive, double friction) {
+    return {std::clamp(drive.throw_number(), 1e-6, theory::largest_throw_number),
+            std::tan(drive.vibration_angle), std::tan(drive.inclination), friction};
 }
 
 double value_at(scenario::Key const& key, theory::Drive const& drive) {

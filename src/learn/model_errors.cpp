@@ -61,19 +61,25 @@ std::span<ModelError const> rolling_layer_errors() {
     return of_rolling_layer;
 }
 
-std::optional<double> known_error(std::span<ModelError const> errors, double throw_number,
-                                  double tan_inclination, std::optional<double> depth) {
+ModelError const* known_row(std::span<ModelError const> errors, double throw_number, double tan_inclination,
+                            std::optional<double> depth) {
     double const last_throw_number = largest_throw_number(errors);
     double const last_slope = most(errors, [](ModelError const& one) { return one.tan_inclination.high; });
-    double const last_depth = largest_depth(errors);
-    std::optional<double> found;
+    double const last_depth = most(errors, [](ModelError const& one) { return one.depth.high; });
+    ModelError const* found = nullptr;
     for (ModelError const& one : errors) {
         bool const here = contains(one.throw_number, throw_number, last_throw_number) &&
                           contains(one.tan_inclination, tan_inclination, last_slope) &&
                           (!depth || contains(one.depth, *depth, last_depth));
-        if (here) found = std::max(found.value_or(0), one.sd);
+        if (here && (found == nullptr || one.sd > found->sd)) found = &one;
     }
     return found;
+}
+
+std::optional<double> known_error(std::span<ModelError const> errors, double throw_number,
+                                  double tan_inclination, std::optional<double> depth) {
+    auto const* const row = known_row(errors, throw_number, tan_inclination, depth);
+    return row != nullptr ? std::optional(row->sd) : std::nullopt;
 }
 
 double largest_error(std::span<ModelError const> errors) {
@@ -82,10 +88,6 @@ double largest_error(std::span<ModelError const> errors) {
 
 double largest_throw_number(std::span<ModelError const> errors) {
     return most(errors, [](ModelError const& one) { return one.throw_number.high; });
-}
-
-double largest_depth(std::span<ModelError const> errors) {
-    return most(errors, [](ModelError const& one) { return one.depth.high; });
 }
 
 }  // namespace vibrotrough::learn

@@ -1,16 +1,18 @@
 #pragma once
 
 #include "core/note.hpp"
+#include "learn/known_friction.hpp"
 
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace vibrotrough::learn {
 
-// The notes of this room, from their text alone. All functions throw core::note::Fault when the text is not
-// such a note.
+// The notes of this room, from their text alone. The parse functions throw core::note::Fault when the text is
+// not such a note.
 
 /// learn.json. @returns the half-width that was wanted of each case, by its id, > 0
 std::map<std::string, double> parse_half_widths(std::string_view text);
@@ -28,5 +30,11 @@ struct CalibratedFriction {
 
 /// The file of `theory calibrate --posterior`, or what it prints with --json.
 CalibratedFriction parse_calibration(std::string_view text);
+
+/// The friction of such a file, and the model that was calibrated, such as "the point mass". A median with
+/// its interval counts as those of a normal distribution.
+/// @param file  its name, for errors
+/// @throws core::InputError when it is no calibration, has no friction, or did not converge
+std::pair<KnownFriction, std::string> read_posterior(std::string_view text, std::string const& file);
 
 }  // namespace vibrotrough::learn

@@ -19,7 +19,8 @@ std::vector<FreeParameter> const& point_mass_parameters();
 /// or vibration angle replaces that of the measurements. An inclination that is given nowhere is zero.
 /// @throws core::InputError when a name is unknown or given twice, or friction or a vibration angle is
 /// missing
-SpeedModel point_mass_model(std::vector<std::string> const& free, std::map<std::string, double> const& fixed,
-                            std::vector<MeasuredSpeed> const& speeds);
+CalibrationModel point_mass_model(std::vector<std::string> const& free,
+                                  std::map<std::string, double> const& fixed,
+                                  std::vector<MeasuredSpeed> const& speeds);
 
 }  // namespace vibrotrough::learn

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "learn/design_model.hpp"
 #include "learn/exciter.hpp"
+#include "learn/speed_model.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,21 +65,14 @@ struct DesignTask {
 /// where it is. The friction counts with the central 95 % of its distribution.
 std::optional<std::string> untested(DesignTask const& task, DesignLayer const& layer);
 
+struct RiskDesign;
+
 /// The machine for one of the speeds and strokes of the drive that can be had.
-struct SpeedTried {
-    double frequency;                          ///< Hz; 0 where no machine was found at any
-    bool feasible = false;                     ///< as in RiskDesign, like all that follows
-    double amplitude = 0;                      ///< m; 0 likewise
-    double sure_speed = 0;                     ///< m/s
-    double depth = 0;                          ///< m
-    double probability = 0;                    ///< that the mass flow is reached
-    double machine_number = 0;                 ///< K
-    double landing_speed = 0;                  ///< m/s
-    std::optional<std::string> untested = {};  ///< why its probability is not known
-    std::optional<std::string> why_none = {};  ///< why there is no machine, without a full stop
-    double vibration_angle = 0;                ///< rad
-    double inclination = 0;                    ///< rad
-    int rank = 0;                              ///< 1 for the best by the objective; 0 without a machine
+struct Choice {
+    double frequency, amplitude;                    ///< Hz, m; 0 where it was free and no machine was found
+    std::shared_ptr<RiskDesign const> design = {};  ///< nothing: no machine keeps the limits
+    std::string why_none = {};                      ///< without a full stop
+    int rank = 0;                                   ///< 1 for the best by the objective; 0 without a machine
 };
 
 /// What one uncertain input leaves open of the mass flow; see budget_of().
@@ -133,7 +127,7 @@ struct RiskDesign {
     /// m, of the trough that would carry the mass flow at the confidence with this drive and depth; only when
     /// the mass flow is not reached and some speed is sure.
     std::optional<double> width_needed;
-    std::vector<SpeedTried> speeds_tried;    ///< one for each of the task's frequencies and amplitudes
+    std::vector<Choice> choices;             ///< one for each of the task's frequencies and amplitudes
     std::vector<std::string> active_limits;  ///< what holds it back
     std::vector<std::string> warnings;       ///< where a model is known to be wrong, in whole sentences
 };

@@ -32,9 +32,7 @@ double normal_share_above(double z) {
 
 /// Impact speed and power of the plastic point mass; nothing when it runs away.
 std::optional<theory::ImpactAndPower> quantities_of(theory::Drive const& d, double friction) {
-    theory::PointMass const point{std::clamp(d.throw_number(), 1e-6, theory::largest_throw_number),
-                                  std::tan(d.vibration_angle), std::tan(d.inclination), friction};
-    theory::ConveyorMotion const motion = theory::solve(theory::Conveyor{.point = point});
+    theory::ConveyorMotion const motion = theory::solve(theory::Conveyor{.point = point_of(d, friction)});
     if (!motion.motion.converged) return {};
     return theory::impact_and_power(motion, {d.amplitude});
 }
@@ -49,7 +47,7 @@ double spread_by(DesignModel const& model, DesignLayer const& layer, double theo
     for (UncertainNode const& node : nodes_of({layer.drive.*number, sd})) {
         DesignLayer other = layer;
         other.drive.*number = std::max(1e-6, node.value);
-        auto const value = model.quickly_at(other, friction);
+        auto const value = model.at(other, friction, Precision::near);
         if (!value) continue;
         double const speed = value->efficiency * other.drive.trough_speed();
         known += node.share;
@@ -70,23 +68,21 @@ SettingSpread spread_of(DesignTask const& task, DesignModel const& model, Design
 }
 
 /// What a model says of a layer, by parts of the friction.
-/// @param at  the model's `at`, or what stands for it in a search
-template <class At>
 SpeedDistribution speeds_by(DesignTask const& task, DesignModel const& model, DesignLayer const& layer,
-                            std::vector<FrictionPart> const& parts, At const& at) {
-    double const usually_missed = model.missed(layer.drive, task.in_grains(layer.depth));
+                            std::vector<FrictionPart> const& parts, Precision precision) {
+    double const usually_missed = model.missed(layer.drive, task.in_grains(layer.depth), task.confidence);
     double const trough = layer.drive.trough_speed();
-    SettingSpread const set = spread_of(task, model, layer);
     SpeedDistribution d;
+    d.settings = spread_of(task, model, layer);
     for (FrictionPart const& part : parts) {
-        auto const value = at(part.friction);
+        auto const value = model.at(layer, part.friction, precision);
         // A material that runs away has no speed that could be used.
         double const mean = value ? value->efficiency * trough : -1e3, known = value ? value->sd() : 0;
         auto const add = [&](double share, double missed) {
             d.shares.push_back(share);
             d.means.push_back(mean);
-            double const settings =
-                std::hypot(set.amplitude, set.vibration_angle, set.bulk_density * std::abs(mean));
+            double const settings = std::hypot(d.settings.amplitude, d.settings.vibration_angle,
+                                               d.settings.bulk_density * std::abs(mean));
             d.sds.push_back(std::hypot(trough * std::hypot(known, missed), value ? settings : 0));
         };
         if (!model.uses_calibrated_discrepancy || part.discrepancies.empty()) {
@@ -100,28 +96,13 @@ SpeedDistribution speeds_by(DesignTask const& task, DesignModel const& model, De
 }
 
 bool is_any_slow(std::vector<DesignModel> const& models) {
-    return std::ranges::any_of(models, [](DesignModel const& m) { return bool(m.nearly_at); });
+    return std::ranges::any_of(models, &DesignModel::is_slow);
 }
 
 std::vector<FrictionPart> parts_to_judge_by(DesignTask const& task) {
     bool const is_slow = is_any_slow(task.models) || is_any_slow(task.beside);
     return task.friction.parts(is_slow ? many_parts(task.confidence, parts_of_slow_models)
                                        : many_parts(task.confidence));
-}
-
-theory::Range allowed_depths(DesignTask const& task) {
-    theory::Range depth = task.depth;
-    for (DesignModel const& model : task.models)
-        depth = {std::max(depth.low, model.depths.low), std::min(depth.high, model.depths.high)};
-    // Ends that are the same but for rounding.
-    if (depth.low > depth.high && depth.low < depth.high * (1 + 1e-9)) depth.low = depth.high;
-    if (depth.low <= depth.high) return depth;
-    std::vector<std::string> known;
-    for (DesignModel const& model : task.models)
-        known.push_back(fmt::format("{} knows {}", model.name, model.known_range));
-    throw std::invalid_argument(fmt::format("a layer {:.3g} to {:.3g} mm deep has not been simulated; {}",
-                                            1e3 * task.depth.low, 1e3 * task.depth.high,
-                                            fmt::join(known, ", ")));
 }
 
 }  // namespace
@@ -174,9 +155,8 @@ double SpeedDistribution::sd() const {
 RiskSearch::RiskSearch(DesignTask const& task, Layers layers)
     : task_(task),
       layers_(layers),
-      drive_space_(allowed_space(task)),
-      depth_(allowed_depths(task)),
-      space_(drive_space_, depth_),
+      allowed_(allowed_layers(task)),
+      space_(allowed_.drives, allowed_.depth),
       few_(task.friction.parts(few_parts(task.confidence))),
       many_(parts_to_judge_by(task)),
       landing_frictions_{task.friction.low} {
@@ -195,11 +175,7 @@ double RiskSearch::per_depth_and_speed() const {
 }
 
 SpeedDistribution RiskSearch::speeds(DesignLayer const& layer, DesignModel const& model) const {
-    return speeds_by(task_, model, layer, many_, [&](double mu) { return model.at(layer, mu); });
-}
-
-SettingSpread RiskSearch::spread_of_settings(DesignLayer const& layer, DesignModel const& model) const {
-    return spread_of(task_, model, layer);
+    return speeds_by(task_, model, layer, many_, Precision::exact);
 }
 
 double RiskSearch::sure_speed(DesignLayer const& layer) const {
@@ -216,12 +192,9 @@ double RiskSearch::sure_flow(DesignLayer const& layer) const {
 /// m/s, the sure speed as the search expects it, by the few parts of the friction.
 double RiskSearch::expected_speed(DesignLayer const& layer, Precision precision) const {
     double least = infinity;
-    for (DesignModel const& model : task_.models) {
-        auto const at = [&](double mu) {
-            return precision == Precision::near ? model.quickly_at(layer, mu) : model.at(layer, mu);
-        };
-        least = std::min(least, speeds_by(task_, model, layer, few_, at).exceeded_with(task_.confidence));
-    }
+    for (DesignModel const& model : task_.models)
+        least =
+            std::min(least, speeds_by(task_, model, layer, few_, precision).exceeded_with(task_.confidence));
     return correction_ * least;
 }
 
@@ -260,7 +233,7 @@ double RiskSearch::objective_at(DesignLayer const& layer, Precision precision) c
         case Objective::fastest: {
             // Where the mass flow is just carried, the thinnest layer is the fastest.
             double const just = task_.mass_flow / (per_depth_and_speed() * layer.depth);
-            return layer.depth > depth_.low ? just : std::max(just, expected_speed(layer, precision));
+            return layer.depth > allowed_.depth.low ? just : std::max(just, expected_speed(layer, precision));
         }
         case Objective::gentlest_landing: {
             double hardest = 0;
@@ -269,7 +242,7 @@ double RiskSearch::objective_at(DesignLayer const& layer, Precision precision) c
             return -hardest;
         }
         case Objective::least_machine_number:
-            return -layer.drive.machine_number(drive_space_.gravity);
+            return -layer.drive.machine_number(allowed_.drives.gravity);
         case Objective::least_power: {
             auto const quantities = quantities_of(layer.drive, task_.friction.median);
             if (!quantities) return -infinity;
@@ -316,19 +289,19 @@ std::optional<FoundLayer> RiskSearch::best_that_carries(FoundLayer const& strong
 std::optional<double> RiskSearch::carrying_depth(theory::Drive const& drive, double known) const {
     auto const surplus = [&](double depth) { return sure_flow({drive, depth}) / task_.mass_flow - 1; };
     auto const carries = [&](double depth) { return surplus(depth) >= -1e-9; };
-    double const at_low = surplus(depth_.low);
-    if (at_low >= 0) return depth_.low;
-    double const enough = known > depth_.low && carries(known) ? known : depth_.high;
+    double const at_low = surplus(allowed_.depth.low);
+    if (at_low >= 0) return allowed_.depth.low;
+    double const enough = known > allowed_.depth.low && carries(known) ? known : allowed_.depth.high;
     double const at_enough = surplus(enough);
     if (at_enough < -1e-9) return {};
     if (at_enough <= 0) return enough;
     std::uintmax_t most = 30;
     double const exact =
-        boost::math::tools::toms748_solve(surplus, depth_.low, enough, at_low, at_enough,
+        boost::math::tools::toms748_solve(surplus, allowed_.depth.low, enough, at_low, at_enough,
                                           boost::math::tools::eps_tolerance<double>(24), most)
             .second;
     double const rounded = std::ceil(exact / depth_step - 1e-6) * depth_step;
-    if (rounded <= depth_.high && carries(rounded)) return rounded;
+    if (rounded <= allowed_.depth.high && carries(rounded)) return rounded;
     return enough;
 }
 
@@ -386,7 +359,7 @@ void RiskSearch::keep_landing_at(Landing const& landing) {
 }
 
 bool RiskSearch::keeps_limits(theory::Drive const& drive) const {
-    if (excess(drive_space_, drive) > 0) return false;
+    if (excess(allowed_.drives, drive) > 0) return false;
     for (DesignModel const& model : task_.models)
         if (model.excess(drive) > 0) return false;
     return !task_.landing_speed || worst_landing(drive).speed <= *task_.landing_speed;

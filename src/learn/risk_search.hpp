@@ -2,6 +2,7 @@
 
 #include "learn/layer_search.hpp"
 #include "learn/risk_design.hpp"
+#include "learn/way_out.hpp"
 
 #include <functional>
 #include <optional>
@@ -10,9 +11,17 @@
 // Internal to the design with risk (risk_design.cpp).
 namespace vibrotrough::learn {
 
+/// What the errors of the settings leave open of a speed: standard deviations.
+struct SettingSpread {
+    double amplitude = 0;        ///< m/s, by the stroke
+    double vibration_angle = 0;  ///< m/s
+    double bulk_density = 0;     ///< of the mass flow, relative
+};
+
 /// The conveying speeds of a drive: a mixture of normal distributions, at least one per part of the friction.
 struct SpeedDistribution {
     std::vector<double> shares, means, sds;  ///< -, m/s, m/s
+    SettingSpread settings = {};             ///< at the median of the friction; a part of `sds`
 
     /// Probability of a speed above one. @param speed  m/s
     double probability_above(double speed) const;
@@ -20,13 +29,6 @@ struct SpeedDistribution {
     double exceeded_with(double probability) const;
     double sd() const;           ///< m/s, standard deviation
     double sd_of_means() const;  ///< m/s, of it what the parts differ in their means
-};
-
-/// What the errors of the settings leave open of a speed: standard deviations.
-struct SettingSpread {
-    double amplitude = 0;        ///< m/s, by the stroke
-    double vibration_angle = 0;  ///< m/s
-    double bulk_density = 0;     ///< of the mass flow, relative
 };
 
 /// The layers that a design looks at, and what is known of each.
@@ -44,8 +46,6 @@ class RiskSearch {
 
     /// By the many parts of the friction.
     SpeedDistribution speeds(DesignLayer const& layer, DesignModel const& model) const;
-    /// At the median of the friction.
-    SettingSpread spread_of_settings(DesignLayer const& layer, DesignModel const& model) const;
     /// m/s, reached with the task's confidence by all models; below zero when the material runs away. By the
     /// many parts of the friction.
     double sure_speed(DesignLayer const& layer) const;
@@ -74,12 +74,10 @@ class RiskSearch {
     /// Whether a drive keeps every limit at every friction.
     bool keeps_limits(theory::Drive const& drive) const;
 
-    DesignTask const& task() const { return task_; }                  ///< of the design
-    theory::DriveSpace const& space() const { return drive_space_; }  ///< that limits and models allow
-    theory::Range const& depth() const { return depth_; }             ///< m, likewise
+    DesignTask const& task() const { return task_; }           ///< of the design
+    AllowedLayers const& allowed() const { return allowed_; }  ///< by limits and models
 
   private:
-    enum class Precision { near, exact };
     using GoalOf = std::function<LayerGoal(Precision)>;
 
     double expected_speed(DesignLayer const& layer, Precision precision) const;
@@ -94,8 +92,7 @@ class RiskSearch {
 
     DesignTask const& task_;
     Layers layers_;
-    theory::DriveSpace drive_space_;
-    theory::Range depth_;
+    AllowedLayers allowed_;
     LayerSpace space_;
     std::vector<FrictionPart> few_, many_;   ///< of the friction
     double correction_ = 1;                  ///< of the sure speed by the few

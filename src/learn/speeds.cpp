@@ -4,17 +4,17 @@
 #include "core/nearest.hpp"
 #include "core/typed_unit.hpp"
 #include "learn/machine_keys.hpp"
-#include "theory/drive_search.hpp"
+#include "theory/drive.hpp"
 #include "theory/quantities.hpp"
 #include "theory/unusual.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::learn {
 namespace {
@@ -42,31 +42,13 @@ constexpr std::array<Column, 10> known_columns{{
     {"uncertainty_m_per_min", 0, 6e4},
 }};
 
-std::string all_names() {
-    std::string names = "the names are";
-    for (Column const& column : known_columns)
-        names += fmt::format("{} {}", &column == known_columns.data() ? "" : ",", column.name);
-    return names;
-}
-
 /// The column that is meant by another name; else all.
 std::string name_instead(std::string const& given) {
-    static std::map<std::string_view, std::string_view> const meanings{
-        {"U/min", "rpm"},
-        {"1/min", "rpm"},
-        {"turns", "rpm"},
-        {"stroke", "stroke_mm"},
-        {"amplitude", "amplitude_mm"},
-        {"frequency", "frequency_hz"},
-        {"speed", "speed_m_per_s"},
-        {"v", "speed_m_per_s"},
-        {"vibration_angle", "vibration_angle_deg"},
-        {"inclination", "inclination_deg"}};
     std::vector<std::string_view> names;
     for (Column const& column : known_columns) names.push_back(column.name);
-    auto const meant = meanings.find(given);
-    auto const nearest = meant == meanings.end() ? core::nearest_word(given, names) : meant->second;
-    return nearest.empty() ? all_names() : fmt::format("did you mean {}?", nearest);
+    auto const nearest = core::nearest_word(given, names);
+    return nearest.empty() ? fmt::format("the names are {}", fmt::join(names, ", "))
+                           : fmt::format("did you mean {}?", nearest);
 }
 
 class Table {
@@ -182,32 +164,31 @@ std::string slip_of_speed(MeasuredSpeed const& one, double fastest) {
 
 std::vector<std::string> unusual_speeds(std::vector<MeasuredSpeed> const& speeds) {
     std::vector<std::string> sentences;
-    auto const tell_first = [&](auto const& is_unusual, auto const& sentence) {
-        auto const found = std::ranges::find_if(speeds, is_unusual);
-        if (found != speeds.end())
-            sentences.push_back(fmt::format("line {}: {}", found->line, sentence(*found)));
+    auto const tell_first = [&](auto const& what_is_unusual) {
+        for (MeasuredSpeed const& one : speeds) {
+            std::string const told = what_is_unusual(one);
+            if (told.empty()) continue;
+            sentences.push_back(fmt::format("line {}: {}", one.line, told));
+            return;
+        }
     };
-    auto const unusual = [](MeasuredSpeed const& s) {
+    tell_first([](MeasuredSpeed const& s) {
         theory::Drive const drive{s.frequency, s.amplitude, 1, 0};
         theory::MachineNumbers numbers{
             s.frequency, s.amplitude, drive.machine_number(theory::Machine{}.gravity), {}, s.vibration_angle};
         numbers.is_stroke = s.is_stroke;
         numbers.is_turns = s.is_turns;
-        return theory::unusual_numbers(numbers);
-    };
-    tell_first([&](MeasuredSpeed const& s) { return !unusual(s).empty(); },
-               [&](MeasuredSpeed const& s) { return unusual(s).front(); });
+        auto const unusual = theory::unusual_numbers(numbers);
+        return unusual.empty() ? "" : unusual.front();
+    });
     // A mass that does not rebound is never faster than the trough.
-    auto const fastest = [](MeasuredSpeed const& s) {
-        return 2 * std::numbers::pi * s.frequency * s.amplitude;
-    };
-    tell_first([&](MeasuredSpeed const& s) { return std::abs(s.speed) > fastest(s); },
-               [&](MeasuredSpeed const& s) {
-                   return fmt::format(
-                       "a speed of {:.3g} m/s is more than the trough's own largest speed of "
-                       "{:.3g} m/s{}",
-                       s.speed, fastest(s), slip_of_speed(s, fastest(s)));
-               });
+    tell_first([](MeasuredSpeed const& s) -> std::string {
+        double const fastest = 2 * std::numbers::pi * s.frequency * s.amplitude;
+        if (std::abs(s.speed) <= fastest) return "";
+        return fmt::format(
+            "a speed of {:.3g} m/s is more than the trough's own largest speed of {:.3g} m/s{}", s.speed,
+            fastest, slip_of_speed(s, fastest));
+    });
     return sentences;
 }
 

@@ -18,6 +18,7 @@ namespace vibrotrough::learn {
 namespace {
 
 constexpr char const* friction_key = "trough.friction";
+constexpr double same_coefficient = 0.005;  // two that are so close count as one
 
 /// Where an input of the surface comes from: the drive, the friction, or the user.
 struct Source {
@@ -57,11 +58,24 @@ bool varies(std::vector<atlas::SurfaceInput> const& inputs, std::string_view gro
     });
 }
 
+/// The range that is left where the campaign does not vary a quantity: its value, if it is allowed.
+theory::Range fixed_at(char const* name, theory::Range const& range, double value, double in_unit,
+                       char const* unit) {
+    double const slack = 1e-9 * std::max(std::abs(range.low), std::abs(range.high));
+    if (value >= range.low - slack && value <= range.high + slack) {
+        double const inside = std::clamp(value, range.low, range.high);
+        return {inside, inside};
+    }
+    throw std::invalid_argument(fmt::format(
+        "the campaign was simulated with a {} of {:.4g} {}, outside the range {:.4g} to {:.4g} {}", name,
+        in_unit * value, unit, in_unit * range.low, in_unit * range.high, unit));
+}
+
 /// The surface at the drives of a design.
-class SurfaceAtDrives {
+class SurfaceSpeeds : public SpeedModel {
   public:
-    SurfaceAtDrives(std::shared_ptr<atlas::Surface const> surface, CampaignTrend trend,
-                    std::vector<Source> sources, double numerics)
+    SurfaceSpeeds(std::shared_ptr<atlas::Surface const> surface, CampaignTrend trend,
+                  std::vector<Source> sources, double numerics)
         : surface_(std::move(surface)),
           trend_(std::move(trend)),
           sources_(std::move(sources)),
@@ -72,17 +86,24 @@ class SurfaceAtDrives {
             atlas::SurfaceInput const& input = surface_->inputs()[k];
             bool const chosen = sources_[k].machine != nullptr || sources_[k].is_friction;
             middle.push_back(chosen ? (input.low + input.high) / 2 : sources_[k].value);
+            if (sources_[k].is_friction) frictions_ = {input.low, input.high};
         }
-        scenario_ = trend_.scenario_at(middle);
-        prepare::PreparedCase const prepared = prepare::prepare_case(*scenario_);
+        layer_ = trend_.scenario_at(middle);
+        if (!varies_friction_)
+            frictions_ = {layer_.trough.friction - same_coefficient,
+                          layer_.trough.friction + same_coefficient};
+        prepare::PreparedCase const prepared = prepare::prepare_case(layer_);
         is_plain_ = prepared.point_mass.is_plain;
         if (trend_.is_atlas()) atlas_place_ = atlas::place_of(prepared);
     }
 
     /// The campaign's case in the middle of the ranges that a design may choose from.
-    scenario::Scenario const& layer() const { return *scenario_; }
+    scenario::Scenario const& layer() const { return layer_; }
+    /// The frictions on the trough at which the campaign simulated its layer.
+    theory::Range const& frictions() const { return frictions_; }
 
-    std::optional<ModelEfficiency> at(theory::Drive const& drive, double friction) {
+    std::optional<ModelEfficiency> speed(DesignLayer const& layer, double friction, Precision) override {
+        theory::Drive const& drive = layer.drive;
         std::vector<double> const asked{drive.frequency, drive.amplitude, drive.vibration_angle,
                                         drive.inclination, varies_friction_ ? friction : 0};
         if (asked == last_asked_) return last_;
@@ -91,16 +112,36 @@ class SurfaceAtDrives {
         return last_;
     }
 
-    /// How far the machine's inputs are outside the range of the surface, over its width.
-    double excess(theory::Drive const& drive) const {
-        double most = -1;
+    Whereabouts where(theory::Drive const& drive, double friction, std::optional<double>) const override {
+        Whereabouts found;
         for (std::size_t k = 0; k < sources_.size(); ++k) {
             if (sources_[k].machine == nullptr) continue;
             atlas::SurfaceInput const& input = surface_->inputs()[k];
             double const value = value_at(*sources_[k].machine, drive), width = input.high - input.low;
-            most = std::max({most, (value - input.high) / width, (input.low - value) / width});
+            found.excess =
+                std::max({found.excess, (value - input.high) / width, (input.low - value) / width});
         }
-        return most;
+        if (friction < frictions_.low || friction > frictions_.high)
+            found.why_not = fmt::format("the campaign has frictions of {:.3g} to {:.3g}, and not {:.3g}",
+                                        frictions_.low, frictions_.high, friction);
+        return found;
+    }
+
+    /// What the campaign does not vary of the machine, and the depth, stay as they are there.
+    void narrow(theory::DriveSpace& space, theory::Range& depth) const override {
+        scenario::Trough const& trough = layer_.trough;
+        auto const fix = [&](char const* key, char const* name, theory::Range& range, double value,
+                             double in_unit, char const* unit) {
+            if (!varies(surface_->inputs(), scenario::find_key(key)->group))
+                range = fixed_at(name, range, value, in_unit, unit);
+        };
+        fix("trough.amplitude", "stroke", space.amplitude, trough.amplitude, 2000, "mm");
+        fix("trough.vibration_angle", "vibration angle", space.vibration_angle, trough.vibration_angle,
+            1 / degree, "degrees");
+        fix("trough.inclination", "inclination", space.inclination, trough.inclination, 1 / degree,
+            "degrees");
+        double const simulated = scenario::layer_height(layer_);
+        depth = {std::max(depth.low, simulated), std::min(depth.high, simulated)};
     }
 
   private:
@@ -121,19 +162,17 @@ class SurfaceAtDrives {
     /// The trend at a place: fast for a plain sinusoid, else by the case itself.
     std::optional<double> trend_at(atlas::Place const& place, theory::Drive const& drive, double friction) {
         if (!is_plain_) return trend_.efficiency_at(place);
-        double const mu = varies_friction_ ? friction : layer().trough.friction;
+        double const mu = varies_friction_ ? friction : layer_.trough.friction;
         if (atlas_place_) {
             atlas::Place at = *atlas_place_;
             at[atlas::throw_number_input] = drive.throw_number();
             at[atlas::tan_vibration_input] = std::tan(drive.vibration_angle);
             at[atlas::tan_inclination_input] = std::tan(drive.inclination);
             at[atlas::friction_input] = mu;
-            at[atlas::amplitude_input] *= drive.amplitude / layer().trough.amplitude;
+            at[atlas::amplitude_input] *= drive.amplitude / layer_.trough.amplitude;
             return atlas::efficiency_at(atlas::within_ranges(at));
         }
-        double const eta = solver_({std::clamp(drive.throw_number(), 1e-6, theory::largest_throw_number),
-                                    std::tan(drive.vibration_angle), std::tan(drive.inclination), mu})
-                               .velocity_efficiency;
+        double const eta = solver_(point_of(drive, mu)).velocity_efficiency;
         return std::isfinite(eta) ? std::optional(eta) : std::nullopt;
     }
 
@@ -141,26 +180,14 @@ class SurfaceAtDrives {
     CampaignTrend trend_;
     std::vector<Source> sources_;
     double numerics_;  ///< 95 % bound, in velocity efficiency
-    std::optional<scenario::Scenario> scenario_;
+    bool varies_friction_, is_plain_ = false;
+    theory::Range frictions_{};
+    scenario::Scenario layer_;
     std::optional<atlas::Place> atlas_place_;  ///< of that case, where the atlas is the trend
-    bool is_plain_ = false, varies_friction_;
-    std::vector<double> last_asked_;  ///< drive and friction
+    std::vector<double> last_asked_;           ///< drive and friction
     std::optional<ModelEfficiency> last_;
     theory::EfficiencySolver solver_;
 };
-
-/// The range that is left where the campaign does not vary a quantity: its value, if it is allowed.
-theory::Range fixed_at(char const* name, theory::Range const& range, double value, double in_unit,
-                       char const* unit) {
-    double const slack = 1e-9 * std::max(std::abs(range.low), std::abs(range.high));
-    if (value >= range.low - slack && value <= range.high + slack) {
-        double const inside = std::clamp(value, range.low, range.high);
-        return {inside, inside};
-    }
-    throw std::invalid_argument(fmt::format(
-        "the campaign was simulated with a {} of {:.4g} {}, outside the range {:.4g} to {:.4g} {}", name,
-        in_unit * value, unit, in_unit * range.low, in_unit * range.high, unit));
-}
 
 /// The material must be one that was simulated. @param value  of the material
 void check_material(char const* key, double simulated, double value, double slack, double in_unit,
@@ -172,8 +199,7 @@ void check_material(char const* key, double simulated, double value, double slac
         key, in_unit * simulated, in_unit * value, unit));
 }
 
-constexpr double same_coefficient = 0.005;  // two that are so close count as one
-constexpr double same_size = 0.01;          // of the diameter
+constexpr double same_size = 0.01;  // of the diameter
 
 void check_grains(scenario::Grains const& simulated, GivenGrains const& given) {
     if (given.diameter)
@@ -188,13 +214,6 @@ void check_grains(scenario::Grains const& simulated, GivenGrains const& given) {
     };
     check_ends("grains.rolling_friction", simulated.rolling_friction, given.rolling_friction);
     check_ends("grains.friction", simulated.friction, given.friction);
-}
-
-/// The frictions on the trough at which the campaign simulated its layer.
-theory::Range simulated_frictions(std::vector<atlas::SurfaceInput> const& inputs, double of_campaign) {
-    auto const input = std::ranges::find(inputs, friction_key, &atlas::SurfaceInput::key);
-    if (input != inputs.end()) return {input->low, input->high};
-    return {of_campaign - same_coefficient, of_campaign + same_coefficient};
 }
 
 void check_friction(theory::Range const& simulated, KnownFriction const& known) {
@@ -217,38 +236,15 @@ DesignModel surface_design_model(std::shared_ptr<atlas::Surface const> surface, 
             "nothing "
             "to choose; vary one of them");
     }
-    DesignModel model{
-        .name = "the simulated layer", .discrepancy = discrepancy, .remarks = surface->doubts()};
-    auto const drives =
-        std::make_shared<SurfaceAtDrives>(surface, trend, sources_of(inputs, given), numerics);
-    scenario::Trough const trough = drives->layer().trough;
-    theory::Range const frictions = simulated_frictions(inputs, trough.friction);
-    check_friction(frictions, material.friction);
-    check_grains(drives->layer().grains, material.grains);
-    double const depth = scenario::layer_height(drives->layer());
-    model.depths = {depth, depth};
-    model.known_range = fmt::format("a layer {:.3g} mm deep", 1e3 * depth);
-    model.at = [drives](DesignLayer const& layer, double mu) { return drives->at(layer.drive, mu); };
-    model.outside = [frictions](theory::Drive const&, double mu,
-                                std::optional<double>) -> std::optional<std::string> {
-        if (mu >= frictions.low && mu <= frictions.high) return {};
-        return fmt::format("the campaign has frictions of {:.3g} to {:.3g}, and not {:.3g}", frictions.low,
-                           frictions.high, mu);
-    };
-    model.excess = [drives](theory::Drive const& drive) { return drives->excess(drive); };
-    model.narrowed = [=](theory::DriveSpace space) {
-        auto const group = [](char const* key) { return scenario::find_key(key)->group; };
-        if (!varies(inputs, group("trough.amplitude")))
-            space.amplitude = fixed_at("stroke", space.amplitude, trough.amplitude, 2000, "mm");
-        if (!varies(inputs, group("trough.vibration_angle")))
-            space.vibration_angle = fixed_at("vibration angle", space.vibration_angle, trough.vibration_angle,
-                                             1 / degree, "degrees");
-        if (!varies(inputs, group("trough.inclination")))
-            space.inclination =
-                fixed_at("inclination", space.inclination, trough.inclination, 1 / degree, "degrees");
-        return space;
-    };
-    return model;
+    auto const speeds = std::make_shared<SurfaceSpeeds>(surface, trend, sources_of(inputs, given), numerics);
+    check_friction(speeds->frictions(), material.friction);
+    check_grains(speeds->layer().grains, material.grains);
+    return {
+        .name = "the simulated layer",
+        .discrepancy = discrepancy,
+        .speeds = speeds,
+        .known_range = fmt::format("a layer {:.3g} mm deep", 1e3 * scenario::layer_height(speeds->layer())),
+        .remarks = surface->doubts()};
 }
 
 }  // namespace vibrotrough::learn

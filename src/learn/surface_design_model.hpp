@@ -1,7 +1,7 @@
 #pragma once
 
 #include "learn/campaign_surface.hpp"
-#include "learn/design_model.hpp"
+#include "learn/speed_model.hpp"
 
 #include <map>
 #include <memory>

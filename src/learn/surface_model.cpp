@@ -126,9 +126,9 @@ std::vector<FreeParameter> surface_parameters(std::vector<atlas::SurfaceInput> c
     return parameters;
 }
 
-SpeedModel surface_model(std::shared_ptr<atlas::Surface const> surface, scenario::CaseMaker const& maker,
-                         std::vector<std::string> const& free, std::vector<MeasuredSpeed> const& speeds,
-                         double numerics) {
+CalibrationModel surface_model(std::shared_ptr<atlas::Surface const> surface,
+                               scenario::CaseMaker const& maker, std::vector<std::string> const& free,
+                               std::vector<MeasuredSpeed> const& speeds, double numerics) {
     auto const inputs = surface->inputs();
     SurfaceModel const model(std::move(surface), CampaignTrend(maker, inputs, {}), sources_of(inputs, free),
                              numerics);

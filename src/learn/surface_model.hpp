@@ -21,9 +21,9 @@ std::vector<FreeParameter> surface_parameters(std::vector<atlas::SurfaceInput> c
 /// @param numerics  CampaignPoints::numerics of the surface's cases
 /// @throws core::InputError when an input is neither free nor part of a measurement, or a measurement differs
 /// from the campaign in what the campaign does not vary, or lies outside the range of the surface
-SpeedModel surface_model(std::shared_ptr<atlas::Surface const> surface, scenario::CaseMaker const& maker,
-                         std::vector<std::string> const& free, std::vector<MeasuredSpeed> const& speeds,
-                         double numerics);
+CalibrationModel surface_model(std::shared_ptr<atlas::Surface const> surface,
+                               scenario::CaseMaker const& maker, std::vector<std::string> const& free,
+                               std::vector<MeasuredSpeed> const& speeds, double numerics);
 
 /// The places on the surface at which a posterior lies: for each measurement those of up to 40 of its draws.
 /// That is where a finer surface would help the calibration.

@@ -2,6 +2,7 @@
 
 #include "learn/machine_keys.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,41 +16,20 @@ using Json = nlohmann::ordered_json;
 constexpr double seconds_per_hour = 3600;
 
 std::string first_words(DesignTask const& task, Verification const& v) {
-    switch (v.verdict) {
-        case Verdict::verified:
-            return fmt::format(
-                "Verified: this machine was simulated at its own depth, and reaches the mass flow with "
-                "{:.1f} % "
-                "({:.4g} % asked)",
-                100 * v.machines.back().probability.value_or(0), 100 * task.confidence);
-        case Verdict::no_machine:
-            return v.machines.empty()
-                       ? "No machine within the limits is expected to do it, and none was simulated"
-                       : "By the models, corrected with simulated layers, no machine within the limits does "
-                         "it "
-                         "so surely";
-        case Verdict::budget:
-        case Verdict::too_many:
-        case Verdict::no_speed:
-            return "Not verified";
-    }
-    return "";
+    if (v.verdict == Verdict::verified)
+        return fmt::format(
+            "Verified: this machine was simulated at its own depth, and reaches the mass flow with {:.1f} % "
+            "({:.4g} % asked)",
+            100 * v.machines.back().probability.value_or(0), 100 * task.confidence);
+    if (v.verdict != Verdict::no_machine) return "Not verified";
+    if (v.machines.empty())
+        return "No machine within the limits is expected to do it, and none was simulated";
+    return "By the models, corrected with simulated layers, no machine within the limits does it so surely";
 }
 
 char const* name_of(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::verified:
-            return "verified";
-        case Verdict::no_machine:
-            return "no-machine";
-        case Verdict::budget:
-            return "budget";
-        case Verdict::too_many:
-            return "too-many";
-        case Verdict::no_speed:
-            return "no-speed";
-    }
-    return "";
+    static constexpr std::array names{"verified", "no-machine", "budget", "too-many", "no-speed"};
+    return names.at(static_cast<std::size_t>(verdict));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include "core/text.hpp"
 #include "learn/layer_search.hpp"
 #include "learn/machine_keys.hpp"
-#include "theory/design.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +36,22 @@ double hardest_landing(KnownFriction const& friction, theory::Drive const& drive
                      landing_speed(drive, friction.high)});
 }
 
+/// What all models of a task leave of its limits; the depths may be empty.
+AllowedLayers allowed_drives(DesignTask const& task) {
+    AllowedLayers allowed{task.space, task.depth};
+    allowed.drives.inclination = theory::with_friction_margin(task.space.inclination, task.friction.low);
+    for (DesignModel const& model : task.models) model.speeds->narrow(allowed.drives, allowed.depth);
+    return allowed;
+}
+
+std::vector<std::string> known_ranges(DesignTask const& task) {
+    std::vector<std::string> known;
+    for (DesignModel const& model : task.models)
+        if (!model.known_range.empty())
+            known.push_back(fmt::format("{} knows {}", model.name, model.known_range));
+    return known;
+}
+
 /// The drive that is best in something among those that keep all limits of a task, whatever it carries.
 std::optional<theory::Drive> best_within(DesignTask const& task, DriveFunction const& merit) {
     LayerGoal goal;
@@ -50,7 +65,7 @@ std::optional<theory::Drive> best_within(DesignTask const& task, DriveFunction c
         });
     try {
         auto const found =
-            best_layers(LayerSpace(allowed_space(task), {task.depth.low, task.depth.low}), goal);
+            best_layers(LayerSpace(allowed_drives(task).drives, {task.depth.low, task.depth.low}), goal);
         return found.empty() ? std::nullopt : std::optional(found.front().layer.drive);
     } catch (std::invalid_argument const&) {
         return {};
@@ -69,41 +84,35 @@ std::vector<Limit> limits_of(DesignTask const& task) {
     using theory::Drive;
     theory::DriveSpace const& space = task.space;
     double const g = space.gravity;
+    auto const machine = [=](Drive const& d) { return d.machine_number(g); };
+    auto const thrown = [=](Drive const& d) { return d.throw_number(g); };
+    auto const number = [](double Drive::*which) { return [=](Drive const& d) { return d.*which; }; };
+    auto const widen = [](theory::Range theory::DriveSpace::*range, theory::Range const& all) {
+        return [=](DesignTask& t) { t.space.*range = all; };
+    };
+    auto const lift = [](double theory::DriveSpace::*most) {
+        return [=](DesignTask& t) { t.space.*most = given_up; };
+    };
+    char const* const stroke = task.tells_amplitude ? "amplitude" : "stroke";
+    char const* const speed = task.tells_frequency ? "frequency" : "speed of the drive";
+    double const in_mm = task.tells_amplitude ? 1000 : 2000, in_turns = task.tells_frequency ? 1 : 60;
+    char const* const turns = task.tells_frequency ? " Hz" : " 1/min";
+    using Space = theory::DriveSpace;
     std::vector<Limit> limits{
-        {"machine number",
-         "",
-         1,
-         {0, space.max_machine_number},
-         [=](Drive const& d) { return d.machine_number(g); },
-         [](DesignTask& t) { t.space.max_machine_number = given_up; }},
-        {"throw number",
-         "",
-         1,
-         {0, space.max_throw_number},
-         [=](Drive const& d) { return d.throw_number(g); },
-         [](DesignTask& t) { t.space.max_throw_number = given_up; }},
-        {task.tells_amplitude ? "amplitude" : "stroke", " mm", task.tells_amplitude ? 1000.0 : 2000.0,
-         space.amplitude, [](Drive const& d) { return d.amplitude; },
-         [](DesignTask& t) {
-             t.space.amplitude = {1e-6, 0.1};
-         }},
-        {task.tells_frequency ? "frequency" : "speed of the drive", task.tells_frequency ? " Hz" : " 1/min",
-         task.tells_frequency ? 1.0 : 60.0, space.frequency, [](Drive const& d) { return d.frequency; },
-         [](DesignTask& t) {
-             t.space.frequency = {0.5, 200};
-         }},
-        {"vibration angle", " degrees", 1 / degree, space.vibration_angle,
-         [](Drive const& d) { return d.vibration_angle; },
-         [](DesignTask& t) {
-             t.space.vibration_angle = {degree, 89 * degree};
-         }}};
-    if (task.landing_speed)
-        limits.push_back({"landing speed",
-                          " m/s",
-                          1,
-                          {0, *task.landing_speed},
-                          [&task](Drive const& d) { return hardest_landing(task.friction, d); },
-                          [](DesignTask& t) { t.landing_speed.reset(); }});
+        {"machine number", "", 1, {0, space.max_machine_number}, machine, lift(&Space::max_machine_number)},
+        {"throw number", "", 1, {0, space.max_throw_number}, thrown, lift(&Space::max_throw_number)},
+        {stroke, " mm", in_mm, space.amplitude, number(&Drive::amplitude),
+         widen(&Space::amplitude, {1e-6, 0.1})},
+        {speed, turns, in_turns, space.frequency, number(&Drive::frequency),
+         widen(&Space::frequency, {0.5, 200})},
+        {"vibration angle", " degrees", 1 / degree, space.vibration_angle, number(&Drive::vibration_angle),
+         widen(&Space::vibration_angle, {degree, 89 * degree})}};
+    if (task.landing_speed) {
+        auto const hardest = [&task](Drive const& d) { return hardest_landing(task.friction, d); };
+        limits.push_back({"landing speed", " m/s", 1, {0, *task.landing_speed}, hardest, [](DesignTask& t) {
+                              t.landing_speed.reset();
+                          }});
+    }
     return limits;
 }
 
@@ -123,22 +132,24 @@ std::optional<std::string> way_past(Limit const& limit, DesignTask task) {
 
 }  // namespace
 
-theory::DriveSpace allowed_space(DesignTask const& task) {
-    theory::DriveSpace space = task.space;
-    space.inclination = theory::with_friction_margin(space.inclination, task.friction.low);
-    for (DesignModel const& model : task.models) space = model.narrowed(space);
-    return space;
+AllowedLayers allowed_layers(DesignTask const& task) {
+    AllowedLayers allowed = allowed_drives(task);
+    auto& [low, high] = allowed.depth;
+    // Ends that are the same but for rounding.
+    if (low > high && low < high * (1 + 1e-9)) low = high;
+    if (low <= high) return allowed;
+    throw std::invalid_argument(fmt::format("a layer {:.3g} to {:.3g} mm deep has not been simulated; {}",
+                                            1e3 * task.depth.low, 1e3 * task.depth.high,
+                                            fmt::join(known_ranges(task), ", ")));
 }
 
 std::string why_no_machine(DesignTask const& task) {
-    std::vector<std::string> ways, known;
-    for (DesignModel const& model : task.models)
-        if (!model.known_range.empty())
-            known.push_back(fmt::format("{} knows {}", model.name, model.known_range));
+    std::vector<std::string> ways;
     for (Limit const& limit : limits_of(task))
         if (auto const way = way_past(limit, task)) ways.push_back(*way);
     std::string text = "the limits exclude every machine, whatever it carries";
-    if (!known.empty()) text += fmt::format("; {}", fmt::join(known, ", "));
+    if (auto const known = known_ranges(task); !known.empty())
+        text += fmt::format("; {}", fmt::join(known, ", "));
     if (ways.empty()) return text + "; no limit alone is the reason";
     return text + fmt::format("; {} would let one through", fmt::join(ways, ", or "));
 }

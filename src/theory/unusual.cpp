@@ -7,7 +7,14 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double radian = 180 / std::numbers::pi;  // degrees
+constexpr double radian = 180 / std::numbers::pi;    // degrees
+constexpr double largest_usual_frequency = 120;      // Hz; magnets at twice the mains' 60 Hz
+constexpr double largest_usual_amplitude = 0.05;     // m
+constexpr double largest_usual_machine_number = 9;   // K
+constexpr double largest_usual_friction = 1.5;       // of the mass on the trough
+constexpr double smallest_usual_angle = 0.028;       // rad, 1.6 degrees: 90 degrees written in radians
+constexpr double smallest_usual_bulk_density = 15;   // kg/m3; foamed polystyrene has about 20
+constexpr double smallest_usual_grain_density = 30;  // kg/m3; foamed polystyrene
 
 /// Three digits, as in a sentence, and all of a whole number that has more.
 std::string in_words(double value) {
@@ -19,18 +26,14 @@ std::string in_words(double value) {
 std::optional<UnusualNumber> unusual_turns(double turns) {
     bool const is_few = turns < 60 * smallest_usual_frequency;
     if (!is_few && turns <= 60 * largest_usual_frequency) return {};
-    std::string const slip = !is_few ? "is there a digit too many?"
-                             : turns >= smallest_usual_frequency
-                                 ? "were " + in_words(turns) + " Hz meant, not rpm?"
-                                 : "";
+    std::string slip = is_few ? "" : "is there a digit too many?";
+    if (is_few && turns >= smallest_usual_frequency) slip = "were " + in_words(turns) + " Hz meant, not rpm?";
     double const limit = 60 * (is_few ? smallest_usual_frequency : largest_usual_frequency);
     return UnusualNumber{UnusualQuantity::frequency,
                          "speed of the drive",
                          turns,
                          limit,
-                         is_few,
                          "1/min",
-                         in_words(turns) + " turns per minute are unusual",
                          "vibrating troughs have 60 to 7200",
                          slip};
 }
@@ -43,13 +46,12 @@ std::optional<UnusualNumber> unusual_frequency(double frequency) {
         slip = "were " + in_words(60 * frequency) + " Hz meant, not rpm?";
     else if (!is_slow && frequency <= 60 * largest_usual_frequency)
         slip = "were " + in_words(frequency) + " turns per minute meant (rpm)?";
+    double const limit = is_slow ? smallest_usual_frequency : largest_usual_frequency;
     return UnusualNumber{UnusualQuantity::frequency,
                          "frequency",
                          frequency,
-                         is_slow ? smallest_usual_frequency : largest_usual_frequency,
-                         is_slow,
+                         limit,
                          "Hz",
-                         "a frequency of " + in_words(frequency) + " Hz is unusual",
                          "vibrating troughs run at 1 to 120 Hz",
                          slip};
 }
@@ -57,17 +59,13 @@ std::optional<UnusualNumber> unusual_frequency(double frequency) {
 std::optional<UnusualNumber> unusual_amplitude(double amplitude, bool is_stroke) {
     if (amplitude <= largest_usual_amplitude) return {};
     double const factor = is_stroke ? 2000 : 1000;
-    std::string const name = is_stroke ? "stroke" : "amplitude";
-    return UnusualNumber{
-        UnusualQuantity::amplitude,
-        name,
-        factor * amplitude,
-        factor * largest_usual_amplitude,
-        false,
-        "mm",
-        (is_stroke ? "a " : "an ") + name + " of " + in_words(factor * amplitude) + " mm is unusual",
-        "strokes, which are twice the amplitude, are mostly below 30 mm",
-        "were mm meant, not m?"};
+    return UnusualNumber{UnusualQuantity::amplitude,
+                         is_stroke ? "stroke" : "amplitude",
+                         factor * amplitude,
+                         factor * largest_usual_amplitude,
+                         "mm",
+                         "strokes, which are twice the amplitude, are mostly below 30 mm",
+                         "were mm meant, not m?"};
 }
 
 std::optional<UnusualNumber> unusual_machine_number(double machine_number, bool is_stroke) {
@@ -76,9 +74,7 @@ std::optional<UnusualNumber> unusual_machine_number(double machine_number, bool 
                          "machine number",
                          machine_number,
                          largest_usual_machine_number,
-                         false,
                          "1",
-                         "a machine number of " + in_words(machine_number) + " is unusual",
                          "troughs bear 3 to 6 times gravity",
                          is_stroke ? "are stroke and speed of the drive those of one machine?"
                                    : "was the stroke given as the amplitude, which is half of it?"};
@@ -103,23 +99,15 @@ std::optional<UnusualNumber> unusual_angle(MachineNumbers const& n) {
                          "vibration angle",
                          degrees,
                          smallest_usual_angle * radian,
-                         true,
                          "deg",
-                         "a vibration angle of " + in_words(degrees) + " degrees is unusual",
                          "20 to 45 are usual",
                          in_radians < 1 ? "" : "were radians meant (" + in_words(in_radians) + " degrees)?"};
 }
 
 std::optional<UnusualNumber> unusual_friction(MachineNumbers const& n) {
     if (!n.friction || *n.friction <= largest_usual_friction) return {};
-    return UnusualNumber{UnusualQuantity::friction,
-                         "friction",
-                         *n.friction,
-                         largest_usual_friction,
-                         false,
-                         "1",
-                         "a friction coefficient of " + in_words(*n.friction) + " is unusual",
-                         "it is mostly 0.1 to 1",
+    return UnusualNumber{UnusualQuantity::friction,    "friction", *n.friction,
+                         largest_usual_friction,       "1",        "it is mostly 0.1 to 1",
                          slip_of_friction(*n.friction)};
 }
 
@@ -127,25 +115,26 @@ std::optional<UnusualNumber> unusual_density(UnusualQuantity quantity, std::opti
     bool const is_bulk = quantity == UnusualQuantity::bulk_density;
     double const limit = is_bulk ? smallest_usual_bulk_density : smallest_usual_grain_density;
     if (!density || *density >= limit) return {};
-    std::string const name = is_bulk ? "bulk density" : "density of the grains";
-    std::string const value = in_words(*density);
     double const in_tonnes = 1000 * *density;
-    return UnusualNumber{
-        quantity,
-        name,
-        *density,
-        limit,
-        true,
-        "kg/m3",
-        "a " + name + " of " + value + " kg/m3 is unusual",
-        is_bulk ? "most layers have 100 to 3000" : "most grains have 500 to 8000",
-        in_tonnes < limit ? "" : "were " + value + " t/m3 meant (" + in_words(in_tonnes) + " kg/m3)?"};
+    return UnusualNumber{quantity,
+                         is_bulk ? "bulk density" : "density of the grains",
+                         *density,
+                         limit,
+                         "kg/m3",
+                         is_bulk ? "most layers have 100 to 3000" : "most grains have 500 to 8000",
+                         in_tonnes < limit ? ""
+                                           : "were " + in_words(*density) + " t/m3 meant (" +
+                                                 in_words(in_tonnes) + " kg/m3)?"};
 }
 
 }  // namespace
 
 std::string UnusualNumber::sentence() const {
-    return told + ": " + usual + (slip.empty() ? "" : "; " + slip);
+    std::string const article = name.starts_with('a') ? "an " : "a ";
+    std::string const coefficient = quantity == UnusualQuantity::friction ? " coefficient" : "";
+    std::string const in_unit = unit == "1" ? "" : unit == "deg" ? " degrees" : " " + unit;
+    return article + name + coefficient + " of " + in_words(value) + in_unit + " is unusual: " + usual +
+           (slip.empty() ? "" : "; " + slip);
 }
 
 std::string slip_of_friction(double friction) {

@@ -9,14 +9,7 @@
 
 namespace vibrotrough::theory {
 
-inline constexpr double largest_usual_frequency = 120;     ///< Hz; magnets at twice the mains' 60 Hz
-inline constexpr double smallest_usual_frequency = 1;      ///< Hz
-inline constexpr double largest_usual_amplitude = 0.05;    ///< m
-inline constexpr double largest_usual_machine_number = 9;  ///< K
-inline constexpr double largest_usual_friction = 1.5;      ///< of the mass on the trough
-inline constexpr double smallest_usual_angle = 0.028;  ///< rad, 1.6 degrees: 90 degrees written in radians
-inline constexpr double smallest_usual_bulk_density = 15;   ///< kg/m3; foamed polystyrene has about 20
-inline constexpr double smallest_usual_grain_density = 30;  ///< kg/m3; foamed polystyrene
+inline constexpr double smallest_usual_frequency = 1;  ///< Hz
 
 /// What is known of a motion; nothing where an input was not given.
 struct MachineNumbers {
@@ -48,12 +41,12 @@ struct UnusualNumber {
     std::string name;          ///< of what was given: "frequency", "speed of the drive", "stroke"
     double value;              ///< in `unit`
     double limit;              ///< the largest or the smallest value that is usual, in `unit`
-    bool is_too_small;         ///< the value is below the limit, not above it
     std::string unit;          ///< "1" for a plain number
-    std::string told;          ///< begin of a sentence: "a frequency of 960 Hz is unusual"
     std::string usual;         ///< what is usual: "vibrating troughs run at 1 to 120 Hz"
-    std::string slip;          ///< which slip would explain it, as a question; empty where none does
+    std::string slip = {};     ///< which slip would explain it, as a question; empty where none does
 
+    /// The value is below the limit, not above it.
+    bool is_too_small() const { return value < limit; }
     /// All of it in one sentence, without a full stop.
     std::string sentence() const;
 };

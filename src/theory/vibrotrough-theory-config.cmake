@@ -1,10 +1,4 @@
 include(CMakeFindDependencyMacro)
 find_dependency(TBB)
 find_dependency(Boost 1.74)
-# In this order, as the library was built: see its CMakeLists.txt.
-set(CMAKE_FIND_PACKAGE_SORT_ORDER NAME)
-set(CMAKE_FIND_PACKAGE_SORT_DIRECTION ASC)
-find_dependency(NLopt)
-unset(CMAKE_FIND_PACKAGE_SORT_ORDER)
-unset(CMAKE_FIND_PACKAGE_SORT_DIRECTION)
 include(${CMAKE_CURRENT_LIST_DIR}/vibrotrough-theory-targets.cmake)

@@ -2,7 +2,6 @@
 
 #include "atlas/value.hpp"
 #include "store/sample_record.hpp"
-#include "theory/design.hpp"
 #include "theory/point_mass.hpp"
 #include "theory/quantities.hpp"
 
@@ -83,7 +82,6 @@ TEST(Compare, KnowsTheFactsSheetsPointMass) {
 // The theory's commands and the campaigns stand on the same ground.
 TEST(Compare, OneGravity) {
     EXPECT_EQ(theory::Machine{}.gravity, scenario::gravity);
-    EXPECT_EQ(theory::DesignLimits{}.gravity, scenario::gravity);
 }
 
 // A trough that shakes along itself, horizontal: forward and backward slides are mirror images, eta = 0.

@@ -34,7 +34,7 @@ TEST(AtlasDesignModel, IsTheAtlas) {
     DesignModel const model = atlas_design_model({grain_diameter, Uncertain{0.05}});
     for (double const depth : {4.0, 12.0}) {
         auto const value = model.at(layer(depth), 0.3).value(),
-                   near = model.nearly_at(layer(depth), 0.3).value();
+                   near = model.at(layer(depth), 0.3, Precision::near).value();
         auto const known = atlas::value_at({2, 0.65, 0, 0.3, 2, depth, 0.55, 0.05, 0.55}).value();
         EXPECT_NEAR(value.efficiency, known.efficiency, 1e-6);
         EXPECT_GT(value.sd(), known.half_width / 1.96);
@@ -42,8 +42,6 @@ TEST(AtlasDesignModel, IsTheAtlas) {
                     0.02);  // a draw differs by less than the layers' noise
         EXPECT_NEAR(near.sd(), value.sd(), 0.3 * value.sd());
     }
-    EXPECT_EQ(model.depths.low, 3 * grain_diameter);
-    EXPECT_EQ(model.depths.high, 20 * grain_diameter);
 }
 
 // A depth at the end of the atlas lies within it, though 20 x 3.7 mm / 3.7 mm is rounded up, and 3 x 2.7 mm /
@@ -63,7 +61,11 @@ TEST(AtlasDesignModel, IsLessSureWithoutTheRollingFriction) {
 
 TEST(AtlasDesignModel, KnowsWhereItEnds) {
     DesignModel const model = atlas_design_model({grain_diameter, {}});
-    theory::DriveSpace const space = model.narrowed({});
+    theory::DriveSpace space;
+    theory::Range depth{0, 1};
+    model.speeds->narrow(space, depth);
+    EXPECT_EQ(depth.low, 3 * grain_diameter);
+    EXPECT_EQ(depth.high, 20 * grain_diameter);
     EXPECT_NEAR(space.amplitude.high, 4 * grain_diameter, 1e-12);
     EXPECT_NEAR(std::tan(space.vibration_angle.low), 0.3, 1e-12);
     EXPECT_LE(space.max_throw_number, 3.2);
@@ -78,7 +80,8 @@ TEST(AtlasDesignModel, KnowsWhereItEnds) {
               std::string::npos);
     // Grains of 50 mm on a machine with a stroke of at most 30 mm: half of the smallest amplitude is not
     // reached.
-    EXPECT_THROW(atlas_design_model({0.05, {}}).narrowed({}), std::invalid_argument);
+    space = {};
+    EXPECT_THROW(atlas_design_model({0.05, {}}).speeds->narrow(space, depth), std::invalid_argument);
 }
 
 // A task within the atlas: 1.5 t/h of 3 mm grains on 200 mm, in a layer of 9 to 18 mm. What is said of the

@@ -47,7 +47,7 @@ CalibrationSettings short_chains() {
 // over 1.96.
 TEST(AtlasSpeedModel, IsTheAtlasInMetresPerSecond) {
     auto const speeds = five_settings(0.001);
-    SpeedModel const model = atlas_speed_model(diameter, {"friction"}, known_layer(), speeds);
+    CalibrationModel const model = atlas_speed_model(diameter, {"friction"}, known_layer(), speeds);
     MeasuredSpeed const& one = speeds[2];
     ModelSpeed const said = *model(std::array{0.3}, one);
     auto const value = *atlas::value_at({2.0, std::tan(30 * degree), 0, 0.3, 1, 4, 0.5, 0.1, 0.5});
@@ -61,7 +61,7 @@ TEST(AtlasSpeedModel, IsTheAtlasInMetresPerSecond) {
 // no measurement removes, keeps it wider than the precision of the speeds (0.1 mm/s) alone would.
 TEST(AtlasSpeedModel, FindsTheFrictionThatMadeTheSpeeds) {
     auto speeds = five_settings(1e-4);
-    SpeedModel const model = atlas_speed_model(diameter, {"friction"}, known_layer(), speeds);
+    CalibrationModel const model = atlas_speed_model(diameter, {"friction"}, known_layer(), speeds);
     for (MeasuredSpeed& one : speeds) one.speed = model(std::array{0.3}, one)->speed;
     Calibration const c = calibrate(model, {atlas_parameters().front()}, speeds, short_chains());
     EXPECT_LE(c.parameters.front().low, 0.3);
@@ -74,7 +74,7 @@ TEST(AtlasSpeedModel, AnUnknownLayerWidensTheInterval) {
     EXPECT_THAT(with_unknown_layer({"friction"}, {{"depth", 4}}),
                 testing::ElementsAre("friction", "grain_friction", "rolling_friction", "restitution"));
     auto speeds = five_settings(1e-4);
-    SpeedModel const exact = atlas_speed_model(diameter, {"friction"}, known_layer(), speeds);
+    CalibrationModel const exact = atlas_speed_model(diameter, {"friction"}, known_layer(), speeds);
     for (MeasuredSpeed& one : speeds) one.speed = exact(std::array{0.3}, one)->speed;
     CalibrationSettings shorter = short_chains();
     shorter.sampler.warm_up = 100;
@@ -117,7 +117,7 @@ int coverage_with_common_errors(double assumed, double independent) {
         auto const [low, high] = point_mass_parameters().front().prior;
         double const friction = std::uniform_real_distribution<double>(low, high)(random);
         auto speeds = five_settings(0.001);
-        SpeedModel const model = point_mass_model({"friction"}, {}, speeds);
+        CalibrationModel const model = point_mass_model({"friction"}, {}, speeds);
         double const shared = 0.05 * normal(random);
         for (MeasuredSpeed& one : speeds) {
             ModelSpeed const exact = *model(std::array{friction}, one);

@@ -2,8 +2,10 @@
 
 #include "learn/atlas_design_model.hpp"
 #include "learn/design_report.hpp"
+#include "learn/pellets.hpp"
 #include "theory/point_mass.hpp"
 #include "theory/random_number.hpp"
+#include "theory/rolling_layer.hpp"
 
 #include <cmath>
 #include <map>
@@ -58,14 +60,10 @@ std::map<std::string, double> deviations(ModelForecast const& forecast) {
 
 /// The efficiency 0.5 + friction, which knows nothing of the drive, with sources of its own.
 DesignModel linear_model() {
-    DesignModel model{.name = "a line", .discrepancy = 0.03};
-    model.at = [](DesignLayer const&, double friction) {
-        return ModelEfficiency{0.5 + friction, std::hypot(0.02, 0.04), 0.01};
+    auto const line = [](DesignLayer const&, double friction) {
+        return ModelEfficiency{0.5 + friction, std::hypot(0.02, 0.04), 0.01, {{"rolling friction", 0.04}}};
     };
-    model.sources = [](DesignLayer const&) { return std::vector<OwnSource>{{"rolling friction", 0.04}}; };
-    model.narrowed = [](theory::DriveSpace const& space) { return space; };
-    model.excess = [](theory::Drive const&) { return -1.0; };
-    return model;
+    return {.name = "a line", .discrepancy = 0.03, .speeds = std::make_shared<SpeedsByFunction>(line)};
 }
 
 // The flow is q = rho w h eta omega r cos(beta). Each share by itself: q/eta times the standard deviations of
@@ -105,10 +103,10 @@ TEST(Budget, OfALinearModelAddsUpInSquares) {
 TEST(Budget, KnowsASettingBesideTheEndOfTheModel) {
     DesignModel model = linear_model();
     theory::Drive const drive = drive_of_960();
-    auto const whole = model.at;
-    model.at = [&](DesignLayer const& other, double friction) {
-        return other.drive.amplitude > drive.amplitude * 1.001 ? std::nullopt : whole(other, friction);
+    auto const part = [&, whole = model](DesignLayer const& other, double friction) {
+        return other.drive.amplitude > drive.amplitude * 1.001 ? std::nullopt : whole.at(other, friction);
     };
+    model.speeds = std::make_shared<SpeedsByFunction>(part);
     auto const sds = deviations(judge_machine(uncertain_task(model), drive, 0.02).forecasts.front());
     double const q = 600 * 0.4 * 0.02 * 0.8 * drive.trough_speed();
     EXPECT_NEAR(sds.at("stroke"), q * 0.0001 / 0.004, 1e-9);
@@ -197,7 +195,7 @@ TEST(Budget, TheLawKnowsTheRollingFrictionOfTheGrains) {
     double const sd = std::sqrt(squares - sum * sum);
     ASSERT_GT(sd, 0.02);
     EXPECT_NEAR(unknown.at({drive, 0.012}, 0.3)->sd(), sd, 0.03 * sd);
-    auto const sources = unknown.sources({drive, 0.012});
+    auto const sources = unknown.at({drive, 0.012}, 0.3)->sources;
     ASSERT_EQ(sources.size(), 1U);
     EXPECT_EQ(sources.front().name, "rolling friction (not given: 0 to 0.2)");
     EXPECT_EQ(sources.front().sd, unknown.at({drive, 0.012}, 0.3)->sd());

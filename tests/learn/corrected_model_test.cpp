@@ -73,11 +73,12 @@ TEST(CorrectedModel, LayersOfOnePlaceAreAveraged) {
 // rounding.
 TEST(CorrectedModel, IsToldTheErrorAtTheDepthOfTheLayer) {
     DesignModel model = point_mass_design_model(0.1);
-    model.at = [shallow = model.at](DesignLayer const& one, double friction) {
-        auto value = shallow(one, friction);
+    auto const by_depth = [shallow = model](DesignLayer const& one, double friction) {
+        auto value = shallow.at(one, friction);
         value->efficiency -= 0.1 * (one.depth / grain - 4);
         return value;
     };
+    model.speeds = std::make_shared<SpeedsByFunction>(by_depth);
     DesignModel const corrected = corrected_design_model(model, {layer(model, 0.05, 0)}, grain);
     for (double const depth : {4 * grain, 6 * grain}) {
         DesignLayer const asked{machine(), depth};

@@ -6,8 +6,8 @@
 #include "atlas/value.hpp"
 #include "core/error.hpp"
 #include "learn/machine_keys.hpp"
+#include "learn/notes.hpp"
 #include "learn/point_mass_model.hpp"
-#include "learn/posterior_file.hpp"
 #include "theory/point_mass.hpp"
 
 #include <array>
@@ -164,9 +164,9 @@ TEST(LayerErrors, CountInADesignWithThePosterior) {
                              {"draws",
                               {{"friction", std::vector<double>(100, 0.3)},
                                {"model_discrepancy", std::vector<double>(100, 0.02)}}}};
-    EXPECT_NEAR(read_posterior(posterior.dump(), "old.json").friction.discrepancies.front(), 0.02, 1e-12);
+    EXPECT_NEAR(read_posterior(posterior.dump(), "old.json").first.discrepancies.front(), 0.02, 1e-12);
     posterior["measurements"] = {{{"common_error", 0.01}}, {{"common_error", 0.07}}};
-    EXPECT_NEAR(read_posterior(posterior.dump(), "new.json").friction.discrepancies.front(),
+    EXPECT_NEAR(read_posterior(posterior.dump(), "new.json").first.discrepancies.front(),
                 std::hypot(0.02, 0.05), 1e-12);
     posterior["measurements"] = {{{"common_error", 1e200}}};
     EXPECT_THAT([&] { read_posterior(posterior.dump(), "large.json"); },

@@ -121,5 +121,18 @@ TEST(ModelErrors, AreLookedUpByThrowNumberSlopeAndDepth) {
     EXPECT_EQ(largest_throw_number(law), 3.0);
 }
 
+// Two layers tell an error of 0.026 / 4.303 * 1.96 (rms), which is distributed as Student's t: t(0.975; 2)
+// = 4.303, t(0.995; 2) = 9.925 (tables have four digits). Up to 97.5 % the standard deviation is that of the
+// table.
+TEST(ModelErrors, FewLayersHaveLongTails) {
+    auto const sd = [](double confidence) {
+        theory::Drive const of_throw_number_1{10, 0.00993, 0.25, 0};
+        return point_mass_design_model().missed(of_throw_number_1, 4.0, confidence);
+    };
+    EXPECT_EQ(sd(0.95), 0.026);
+    EXPECT_EQ(sd(0.975), 0.026);
+    EXPECT_NEAR(sd(0.995), 0.026 * (9.925 / 2.5758) / (4.303 / 1.96), 1e-4 * 0.026);
+}
+
 }  // namespace
 }  // namespace vibrotrough::learn

@@ -20,7 +20,7 @@ MeasuredSpeed setting(double amplitude, double frequency, double angle_deg, doub
 // v = eta omega r cos(beta), eta at Gamma = omega^2 r sin(beta) / (g cos(alpha)).
 TEST(PointMassModel, SpeedOfTheTheory) {
     MeasuredSpeed const m = setting(0.003, 12, 30, 2);
-    SpeedModel const model = point_mass_model({"friction"}, {}, {m});
+    CalibrationModel const model = point_mass_model({"friction"}, {}, {m});
     double const omega = 2 * std::numbers::pi * 12;
     double const gamma = omega * omega * 0.003 * 0.5 / (9.81 * std::cos(2 * degree));
     double const eta =
@@ -35,8 +35,9 @@ TEST(PointMassModel, SpeedOfTheTheory) {
 
 TEST(PointMassModel, FreeAnglesReplaceThoseOfTheMeasurement) {
     MeasuredSpeed const m = setting(0.003, 12, 30, 2), other = setting(0.003, 12, 25, -3);
-    SpeedModel const model = point_mass_model({"inclination", "vibration_angle"}, {{"friction", 0.4}}, {m});
-    SpeedModel const plain = point_mass_model({"friction"}, {}, {other});
+    CalibrationModel const model =
+        point_mass_model({"inclination", "vibration_angle"}, {{"friction", 0.4}}, {m});
+    CalibrationModel const plain = point_mass_model({"friction"}, {}, {other});
     EXPECT_DOUBLE_EQ(model(std::array{-3.0, 25.0}, m)->speed, plain(std::array{0.4}, other)->speed);
 }
 
@@ -52,8 +53,8 @@ TEST(PointMassModel, NoSteadySpeed) {
 // fast one.
 TEST(PointMassModel, GeneralSolverAgreesWhereNothingFlies) {
     MeasuredSpeed const m = setting(0.003, 8, 30, 0);
-    SpeedModel const plain = point_mass_model({"friction"}, {}, {m});
-    SpeedModel const general = point_mass_model({"friction", "restitution"}, {}, {m});
+    CalibrationModel const plain = point_mass_model({"friction"}, {}, {m});
+    CalibrationModel const general = point_mass_model({"friction", "restitution"}, {}, {m});
     EXPECT_NEAR(plain(std::array{0.4}, m)->speed, general(std::array{0.4, 0.3}, m)->speed, 1e-9);
 }
 

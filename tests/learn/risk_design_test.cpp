@@ -2,9 +2,8 @@
 
 #include "core/error.hpp"
 #include "learn/design_report.hpp"
-#include "learn/makers_rule.hpp"
 #include "learn/pellets.hpp"
-#include "theory/design.hpp"
+#include "learn/rules_of_thumb.hpp"
 #include "theory/point_mass.hpp"
 #include "theory/quantities.hpp"
 #include "theory/random_number.hpp"
@@ -113,11 +112,6 @@ RC_GTEST_PROP(RiskDesign, BreaksNoLimitAtAnyFriction, ()) {
     }
 }
 
-/// A random number between 0 and 1.
-double uniform() {
-    return between(0, 1);
-}
-
 /// How often the machine of a design carries the mass flow by a model, from random frictions of a normal
 /// distribution, each of another one of its equal parts. What the model misses is taken into account exactly.
 double tried_probability(DesignTask const& task, double median, double sd, RiskDesign const& d,
@@ -125,7 +119,7 @@ double tried_probability(DesignTask const& task, double median, double sd, RiskD
     double const needed = task.mass_flow / (task.bulk_density * task.width * d.depth);
     double sum = 0;
     for (int i = 0; i < tries; ++i) {
-        double const share = std::clamp((i + uniform()) / tries, 1e-9, 1 - 1e-9);
+        double const share = std::clamp((i + between(0, 1)) / tries, 1e-9, 1 - 1e-9);
         double const mu = std::max(0.01, median - sd * std::sqrt(2.0) * boost::math::erfc_inv(2 * share));
         auto const value = model.at({d.drive, d.depth}, mu);
         if (!value) continue;
@@ -177,16 +171,37 @@ TEST(RiskDesign, IsRoundedToWhatAWorkshopSets) {
     EXPECT_TRUE(is_whole(d.drive.vibration_angle * 180 / pi * 20)) << d.drive.vibration_angle * 180 / pi;
 }
 
-// Without uncertainty the fastest design is that of the theory, up to rounding (0.5 %).
+/// m/s, of the fastest level drive on a grid of a space.
+double fastest_on_a_grid(theory::DriveSpace const& s, double friction) {
+    double fastest = 0;
+    for (int i = 0; i <= 60; ++i) {
+        double const amplitude = s.amplitude.low * std::pow(s.amplitude.high / s.amplitude.low, i / 60.0);
+        for (int j = 0; j <= 120; ++j) {
+            double const share = j / 120.0;
+            double const beta = (1 - share) * s.vibration_angle.low + share * s.vibration_angle.high;
+            for (int k = 1; k <= 40; ++k) {
+                double const omega = std::sqrt(s.max_machine_number * k / 40 * s.gravity / amplitude);
+                theory::Drive const d{omega / (2 * pi), amplitude, beta, 0};
+                if (d.frequency < s.frequency.low || d.frequency > s.frequency.high || excess(s, d) > 0)
+                    continue;
+                double const eta = theory::solve(point_of(d, friction)).velocity_efficiency;
+                fastest = std::max(fastest, eta * d.trough_speed());
+            }
+        }
+    }
+    return fastest;
+}
+
+// Without uncertainty the fastest design is that of the theory: none on a grid is faster, but for what
+// rounding the drive may cost (0.5 %), and the grid comes near it.
 TEST(RiskDesign, WithoutRiskItIsTheFastestDesign) {
     DesignTask task = pellets();
     task.friction = normal_friction(0.3, 0);
     task.models = {point_mass_design_model(0)};
-    theory::DesignLimits limits{};
-    limits.friction = 0.3;
-    limits.max_machine_number = task.space.max_machine_number;
-    double const fastest = theory::fastest_design(limits).conveying_speed;
-    EXPECT_NEAR(design_with_risk(task).forecasts.front().median_speed, fastest, 0.007 * fastest);
+    double const fastest = fastest_on_a_grid(task.space, 0.3);
+    double const speed = design_with_risk(task).forecasts.front().median_speed;
+    EXPECT_GE(speed, 0.995 * fastest);
+    EXPECT_LE(speed, 1.02 * fastest);
 }
 
 // Each objective is better in its own terms than the fastest design, and still reaches the mass flow.
@@ -232,39 +247,6 @@ TEST(RiskDesign, SaysWhenItCannotBeReached) {
     EXPECT_THAT(d.active_limits, testing::Contains(testing::HasSubstr("layer depth")));
     EXPECT_THAT(first_sentence(task, d),
                 testing::StartsWith("No machine within the limits carries 1000 t/h"));
-}
-
-/// The layers that roll, by throw number, from a stored table: level, tan(beta) = 0.5, friction 0.23.
-void read_layers(char const* file, std::string const& beginning, std::size_t efficiency_column,
-                 std::map<double, double>& layers) {
-    std::ifstream table(std::string(VALIDATION_FOLDER) + file);
-    ASSERT_TRUE(table) << file;
-    for (std::string line; std::getline(table, line);) {
-        if (line.rfind(beginning, 0) != 0) continue;
-        std::stringstream cells(line.substr(beginning.size()));
-        std::vector<double> numbers;
-        for (std::string cell; std::getline(cells, cell, ',') && numbers.size() <= efficiency_column;)
-            numbers.push_back(std::stod(cell));
-        layers[numbers.front()] = numbers.at(efficiency_column);
-    }
-}
-
-// The factor is that of the project's own tables: layer over theory.
-TEST(RiskDesign, FactorOfRollingLayersIsThatOfTheTables) {
-    std::map<double, double> layers;
-    read_layers("/why_theory_fails/result.csv", "\"4 deep, free\",", 3, layers);
-    read_layers("/rolling_layer/held_out.csv", "throw number,", 1, layers);
-    int compared = 0;
-    for (auto const& [gamma, layer] : layers) {
-        auto const factor = factor_of_rolling_layers(gamma);
-        EXPECT_EQ(factor.has_value(), gamma >= 1.2 && gamma <= 2.3) << gamma;
-        if (!factor) continue;
-        double const theory = theory::solve(theory::PointMass{gamma, 0.5, 0, 0.23}).velocity_efficiency;
-        EXPECT_NEAR(*factor, layer / theory, 0.0006 / theory) << gamma;  // three digits of the efficiency
-        ++compared;
-    }
-    EXPECT_GE(compared, 8);
-    EXPECT_NEAR(*factor_of_rolling_layers(1.7), 1.99, 0.01);
 }
 
 TEST(RiskDesign, WarnsWhereTheTheoryAloneIsWrong) {

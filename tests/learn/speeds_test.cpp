@@ -95,7 +95,8 @@ TEST(Speeds, SlipsNameWhatWasTyped) {
     };
     EXPECT_THAT(told("stroke_mm,rpm", "9700,960,30,0.2"), testing::HasSubstr("a stroke of 9700 mm"));
     EXPECT_THAT(told("amplitude_mm,rpm", "9700,960,30,0.2"), testing::HasSubstr("an amplitude of 9700 mm"));
-    EXPECT_THAT(told("stroke_mm,rpm", "9.7,16,30,0.005"), testing::HasSubstr("16 turns per minute"));
+    EXPECT_THAT(told("stroke_mm,rpm", "9.7,16,30,0.005"),
+                testing::HasSubstr("a speed of the drive of 16 1/min"));
     EXPECT_THAT(told("stroke_mm,frequency_hz", "9.7,960,30,0.2"),
                 testing::HasSubstr("960 turns per minute meant"));
     EXPECT_THAT(told("amplitude_mm,rpm", "9.7,960,30,0.2"),
@@ -105,8 +106,6 @@ TEST(Speeds, SlipsNameWhatWasTyped) {
 }
 
 TEST(Speeds, AnotherNameOfAColumnIsUnderstood) {
-    expect_refused("stroke,rpm,speed_m_per_s\n1,2,3\n", "did you mean stroke_mm?");
-    expect_refused("stroke_mm,U/min,speed_m_per_s\n1,2,3\n", "did you mean rpm?");
     expect_refused("stroke_mm,rpm,speed_m_per_sec\n1,2,3\n", "did you mean speed_m_per_s?");
     expect_refused("stroke_mm,rpm,colour\n1,2,3\n", "the names are");
 }

@@ -73,7 +73,7 @@ TEST_F(SurfaceModelTest, SpeedOfTheLayer) {
 // Speeds of the layer at mu = 0.35 give this friction back; the theory alone does not explain them.
 TEST_F(SurfaceModelTest, CalibrationFindsTheFriction) {
     std::vector<MeasuredSpeed> speeds{setting(1.1), setting(1.5), setting(1.9)};
-    SpeedModel const model = surface_model(surface, *maker, {"trough.friction"}, speeds, 0);
+    CalibrationModel const model = surface_model(surface, *maker, {"trough.friction"}, speeds, 0);
     for (MeasuredSpeed& m : speeds) {
         double const gamma = std::pow(2 * std::numbers::pi * m.frequency, 2) * 0.003 / 9.81;
         double const eta =

@@ -71,14 +71,14 @@ TEST(WayOut, ChoosesAmongTheSpeedsThatCanBeHad) {
     DesignTask task = pellets();
     task.frequencies = {960.0 / 60, 1450.0 / 60, 2900.0 / 60};
     RiskDesign const d = design_with_risk(task);
-    ASSERT_EQ(d.speeds_tried.size(), 3U);
-    EXPECT_THAT(d.speeds_tried.back().why_none.value(), testing::HasSubstr("a stroke of 0.85 mm or less"));
+    ASSERT_EQ(d.choices.size(), 3U);
+    EXPECT_THAT(d.choices.back().why_none, testing::HasSubstr("a stroke of 0.85 mm or less"));
     for (std::size_t i = 0; i < 2; ++i) {
         DesignTask one = task;
         one.frequencies.clear();
         one.space.frequency = {task.frequencies[i], task.frequencies[i]};
         RiskDesign const alone = design_with_risk(one);
-        EXPECT_EQ(alone.sure_speed, d.speeds_tried[i].sure_speed);
+        EXPECT_EQ(alone.sure_speed, d.choices[i].design->sure_speed);
         EXPECT_LE(alone.sure_speed, d.sure_speed);
     }
     EXPECT_EQ(d.drive.frequency, 960.0 / 60);

@@ -1,8 +1,6 @@
 #include "theory/quantities.hpp"
 
 #include "random_number.hpp"
-#include "theory/design.hpp"
-#include "theory/sensitivity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -276,85 +274,6 @@ TEST(Inputs, TakeFrequencyAndStroke) {
     wrong.clear(Input::amplitude_m);
     EXPECT_TRUE(wrong.incomplete()) << "a frequency without an amplitude";
     EXPECT_THROW(inputs(Input::stroke_mm, 0).point(), std::invalid_argument);
-}
-
-// d eta / d input against a difference quotient of the solver itself with another step. Tolerance: its
-// second-order error.
-TEST(Sensitivities, AreDerivatives) {
-    Inputs inputs;
-    inputs.set(Input::throw_number, 1.7);
-    inputs.set(Input::tan_vibration_angle, 0.4);
-    inputs.set(Input::tan_inclination, 0.02);
-    inputs.set(Input::friction, 0.3);
-    auto const answers = sensitivities(inputs);
-    ASSERT_EQ(answers.size(), 4u);
-    double const h = 1e-3;
-    double const secant = (solve(PointMass{1.7 + h, 0.4, 0.02, 0.3}).velocity_efficiency -
-                           solve(PointMass{1.7 - h, 0.4, 0.02, 0.3}).velocity_efficiency) /
-                          (2 * h);
-    EXPECT_EQ(answers[0].input, Input::throw_number);
-    EXPECT_NEAR(answers[0].derivative, secant, 1e-4);
-    EXPECT_LT(answers[2].derivative, 0);  // uphill is slower
-}
-
-// No machine on a grid within the same limits is faster, and the limit reported as active is the one that
-// restricts the speed. Tolerance: 0.1 %, as stated for the search.
-TEST(Design, IsNotBeatenByAGrid) {
-    DesignLimits limits{.friction = 0.3};
-    limits.max_machine_number = 4;
-    Design const design = fastest_design(limits);
-    ASSERT_TRUE(design.feasible);
-    EXPECT_LE(design.machine_number, 4 * (1 + 1e-6));
-    EXPECT_FALSE(design.active_limits.empty());
-    double best = 0;
-    for (int i = 0; i <= 40; ++i) {
-        double const amplitude = 0.0005 * std::pow(30, i / 40.0);
-        for (int j = 0; j <= 60; ++j) {
-            double const beta = 0.0873 + (1.0472 - 0.0873) * j / 60;
-            for (int k = 1; k <= 40; ++k) {
-                double const machine = 4.0 * k / 40, omega = std::sqrt(machine * limits.gravity / amplitude);
-                double const frequency = omega / (2 * pi), gamma = machine * std::sin(beta);
-                if (frequency < 5 || frequency > 60 || gamma > 3.29) continue;
-                double const eta = solve(PointMass{gamma, std::tan(beta), 0, 0.3}).velocity_efficiency;
-                best = std::max(best, eta * omega * amplitude * std::cos(beta));
-            }
-        }
-    }
-    EXPECT_GE(design.conveying_speed, best * 0.999);
-    EXPECT_LE(design.conveying_speed, best * 1.05);
-}
-
-// Every drive that the search gives keeps every limit, without any tolerance, whatever the limits are.
-RC_GTEST_PROP(DriveSearch, KeepsEveryLimit, ()) {
-    DriveSpace space;
-    space.frequency = {between(2, 10), between(15, 60)};
-    space.amplitude = {between(0.2e-3, 1e-3), between(2e-3, 15e-3)};
-    space.vibration_angle = {between(0.05, 0.4), between(0.5, 1.4)};
-    space.inclination = {between(-0.2, 0), between(0, 0.2)};
-    space.max_machine_number = between(1, 6);
-    space.max_throw_number = between(0.9, 3.3);
-    double const most = between(0.05, 0.5);  // m/s, a further limit
-    auto const drive = best_drive(space, [](Drive const& d) { return d.frequency * d.amplitude; },
-                                  {[&](Drive const& d) { return d.trough_speed() / most - 1; }},
-                                  {.global_evaluations = 2000, .local_evaluations = 500});
-    RC_ASSERT(drive.has_value());
-    auto const within = [](double value, Range const& r) { return value >= r.low && value <= r.high; };
-    RC_ASSERT(within(drive->frequency, space.frequency) && within(drive->amplitude, space.amplitude));
-    RC_ASSERT(within(drive->vibration_angle, space.vibration_angle));
-    RC_ASSERT(within(drive->inclination, space.inclination));
-    RC_ASSERT(drive->machine_number(space.gravity) <= space.max_machine_number);
-    RC_ASSERT(drive->throw_number(space.gravity) <= space.max_throw_number);
-    RC_ASSERT(drive->trough_speed() <= most);
-}
-
-TEST(Design, SaysWhenTheFlowIsNotReached) {
-    DesignLimits limits{.friction = 0.3};
-    limits.min_mass_flow = 1e6;
-    limits.bulk_density = 800, limits.layer_height = 0.02, limits.layer_width = 0.2;
-    Design const design = fastest_design(limits);
-    EXPECT_FALSE(design.feasible);
-    limits.friction = -1;
-    EXPECT_THROW(fastest_design(limits), std::invalid_argument);
 }
 
 }  // namespace

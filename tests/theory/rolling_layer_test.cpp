@@ -3,7 +3,6 @@
 #include "integrated_rolling_layer.hpp"
 #include "random_number.hpp"
 #include "theory/batch.hpp"
-#include "theory/design.hpp"
 #include "theory/detail/rolling/walk.hpp"
 
 #include <algorithm>
@@ -227,21 +226,6 @@ TEST(RollingLayer, DerivativeOfAPeriodIsExact) {
         }
         EXPECT_GT(largest, 0.01);
     }
-}
-
-TEST(RollingLayer, DesignStaysWhereTheLawWasTested) {
-    DesignLimits limits{};
-    limits.friction = 0.3;
-    limits.rolling = RollingLaw{};
-    limits.frequency = {15, 15};
-    Design const design = fastest_design(limits);
-    PointMass const p{design.throw_number, std::tan(design.vibration_angle), std::tan(design.inclination),
-                      0.3};
-    EXPECT_LE(design.throw_number, 2.6 * (1 + 1e-6));
-    EXPECT_GE(p.tan_vibration_angle, 0.25 - 1e-9);
-    EXPECT_NEAR(design.velocity_efficiency, solve(RollingLayer{p, {}}).motion.velocity_efficiency, 1e-9);
-    limits.inclination = {0.2, 0.25};
-    EXPECT_THROW(fastest_design(limits), std::invalid_argument);
 }
 
 }  // namespace

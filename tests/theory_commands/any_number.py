@@ -3,7 +3,7 @@ number that contradicts the energy balance.
 
     any_number.py PROGRAM [RUNS [SEED]]
 
-RUNS command lines of `point`, and a tenth of this of each of `map`, `batch`, `trace` and `design`.
+RUNS command lines of `point`, and a tenth of this of each of `map`, `batch` and `trace`.
 """
 
 import collections
@@ -214,21 +214,6 @@ def try_maps(theory: Theory, generator: random.Random, runs: int, folder: Path) 
         theory.call("map", words, [*axes, f"--output={folder}/map.h5", "--jobs=1"], SEARCH_PATIENCE)
 
 
-def try_designs(theory: Theory, generator: random.Random, runs: int) -> None:
-    ranges = {"--frequency": (" Hz", 5, 60), "--amplitude": (" m", 5e-4, 0.015), "--vibration-angle": (" deg", 5, 60), "--inclination": (" deg", -5, 5)}
-    single = {"--friction": ("", 0.1, 0.8), "--machine-number": ("", 1, 6), "--throw-number": ("", 0.5, 3.29), "--gravity": (" m/s2", 1, 20)}
-    for _ in range(runs):
-        chosen = {"--friction": "0.3"}
-        for option in generator.sample([*ranges, *single], generator.choice([1, 2, 3])):
-            unit, least, most = (ranges | single)[option]
-            low, high = any_range(generator, least, most)
-            chosen[option] = f"{low}{unit} to {high}{unit}" if option in ranges else high + unit
-        words = [word for pair in chosen.items() for word in pair]
-        done = theory.call("design", words, ["--json"], SEARCH_PATIENCE)
-        if done.returncode != 2:
-            assert all(map(math.isfinite, numbers_in(json.loads(done.stdout)))), (words, done.stdout)
-
-
 def main(program: str, runs: int, seed: int) -> None:
     generator = random.Random(seed)
     theory = Theory(program)
@@ -238,7 +223,6 @@ def main(program: str, runs: int, seed: int) -> None:
         try_traces(theory, generator, few)
         try_batches(theory, generator, few, Path(place))
         try_maps(theory, generator, few, Path(place))
-        try_designs(theory, generator, few)
     for command in sorted({name for name, _ in theory.ends}):
         ends = [theory.ends[command, code] for code in (0, 1, 2)]
         print(f"{command}: {sum(ends)} command lines: {ends[0]} solved, {ends[1]} without a steady speed, {ends[2]} refused")

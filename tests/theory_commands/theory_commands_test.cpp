@@ -193,44 +193,6 @@ TEST(TheoryPoint, TakesFrequencyAndStroke) {
     expect_refused("point --throw-number 2 --bulk-density '800 kg/m3'" + rest, "--amplitude");
 }
 
-TEST(TheoryDesign, NamesTheActiveLimit) {
-    std::string const base =
-        "design --friction 0.3 --frequency '5 Hz to 50 Hz' --vibration-angle '10 deg to 45 deg' ";
-    auto const answer = ask(base + "--machine-number 4 --amplitude '1 mm to 8 mm'");
-    EXPECT_EQ(answer.at("feasible"), true);
-    EXPECT_NE(answer.at("active_limits").dump().find("machine_number <= 4"), std::string::npos);
-    EXPECT_LE(answer.at("machine_number"), 4.0001);
-    EXPECT_TRUE(answer.contains("sensitivity"));
-    auto const strokes = ask(base + "--machine-number 4 --stroke '2 mm to 16 mm'");
-    EXPECT_EQ(strokes.at("amplitude_m"), answer.at("amplitude_m"));
-    EXPECT_EQ(strokes.at("stroke_mm").get<double>(), 2e3 * answer.at("amplitude_m").get<double>());
-    EXPECT_TRUE(strokes.at("mass_flow_t_per_h").is_null()) << "nothing is known of the layer";
-    std::string const in_turns =
-        "design --friction 0.3 --frequency '300 rpm to 3000 rpm' --vibration-angle '10 deg to 45 deg' "
-        "--machine-number 4 --amplitude '1 mm to 8 mm' --bulk-density '800 kg/m3' --layer-height '20 mm' "
-        "--layer-width '200 mm' --mass-flow ";
-    auto const turns = ask(in_turns + "'5 t/h'");
-    EXPECT_EQ(turns.at("frequency_hz"), answer.at("frequency_hz"));
-    EXPECT_NEAR(turns.at("mass_flow_t_per_h"),
-                3.6 * 800 * 0.02 * 0.2 * turns.at("conveying_speed_m_per_s").get<double>(), 1e-9);
-    expect_refused("design --friction 0.3 --mass-flow '12 tons/h'", "metric tonnes");
-    // 800 kg/m3 times 6.25 m3/h are 5 t/h.
-    auto const volume = ask(in_turns + "'6.25 m3/h'");
-    EXPECT_NEAR(volume.at("mass_flow_t_per_h"), turns.at("mass_flow_t_per_h"), 1e-9) << "one division rounds";
-    expect_refused("design --friction 0.3 --mass-flow '6.25 m3/h'", "for which the bulk density");
-    auto const steep =
-        ask("design --friction 0.1 --inclination '-10 deg to 0 deg'");  // the slope, not beyond mu
-    EXPECT_GE(steep.at("inclination_deg"), -std::atan(0.0951) * 180 / std::acos(-1.0));
-    EXPECT_NE(steep.at("active_limits").dump().find("inclination"), std::string::npos);
-    // tan(alpha) = 0.95 mu: 15.9 deg. What was given is named, in its unit.
-    expect_refused("design --friction 0.3 --inclination '25 deg'", "--inclination 25 deg: must lie between");
-    expect_refused("design --friction 0.3 --inclination '-30 deg to -25 deg'",
-                   "between -15.9076 and 15.9076 deg");
-    expect_refused("design --friction 0.3 --mass-flow '2 kg/s'", "needs --bulk-density");
-    expect_refused("design --friction 0.3 --frequency '50 Hz to 5 Hz'", "first value is above");
-    expect_refused("design --friction 0.3 --frequency '5 m'", "cannot be converted");
-}
-
 TEST_F(TheoryFiles, BatchRepeatsItsColumnsAndAddsTheAnswers) {
     std::ofstream(path("in.csv")) << "throw_number,tan_vibration_angle,tan_inclination,friction,restitution\n"
                                      "2,0.5,0,0.23,\n1.5,0.25,-0.05,0.23,0.2\n2,0.25,0.3,0.23,\n";
@@ -377,7 +339,7 @@ TEST_F(TheoryFiles, BatchRefusesWrongTables) {
 }
 
 TEST(TheoryHelp, EveryCommandTeachesWithAnExample) {
-    for (char const* command : {"point", "map", "trace", "limits", "friction", "design", "batch"}) {
+    for (char const* command : {"point", "map", "trace", "limits", "friction", "batch"}) {
         Answer const answer = run_program(std::string("theory ") + command + " --help");
         EXPECT_EQ(answer.exit_code, 0) << command;
         EXPECT_NE(answer.text.find(std::string("Example:\n  vibrotrough theory ") + command),

@@ -33,7 +33,7 @@ OnSurface calibrate_on(campaign::Plan const& plan, scenario::CaseMaker const& ma
                        CalibrateArguments const& options, std::vector<learn::MeasuredSpeed> const& speeds) {
     learn::CampaignPoints points = learn::campaign_points(plan, maker);
     auto const surface = std::make_shared<atlas::Surface const>(learn::surface_of(points));
-    learn::SpeedModel const model =
+    learn::CalibrationModel const model =
         learn::surface_model(surface, maker, options.shared.free, speeds, points.numerics);
     auto const parameters = options.shared.parameters(learn::surface_parameters(points.inputs));
     return {surface, learn::calibrate(model, parameters, speeds, options.shared.settings())};

@@ -5,7 +5,7 @@
 #include "app/learning.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "learn/atlas_design_model.hpp"
-#include "learn/posterior_file.hpp"
+#include "learn/notes.hpp"
 #include "learn/surface_design_model.hpp"
 
 namespace vibrotrough::app {
@@ -173,9 +173,9 @@ learn::KnownFriction DesignOptions::read_friction(std::string& calibrated_model)
         refuse_both("--posterior", posterior, other, quantities.text(other));
     if (posterior) {
         core::TextFile const file = core::read_text_file(*posterior);
-        auto const read = learn::read_posterior(file.content, *posterior);
-        calibrated_model = read.model;
-        return read.friction;
+        auto const [read, model] = learn::read_posterior(file.content, *posterior);
+        calibrated_model = model;
+        return read;
     }
     required("--friction", quantities.text("--friction"), "0.3");
     learn::Uncertain known = *quantities.uncertain("--friction");

@@ -58,7 +58,7 @@ int run_theory_calibrate(TheoryCalibrateArguments const& options) {
                                           "--grain-diameter \"3 mm\""
                                         : "--grain-diameter belongs to --model atlas");
     CalibrationOptions shared = options.shared;
-    learn::SpeedModel model;
+    learn::CalibrationModel model;
     if (is_atlas) {
         shared.free = learn::with_unknown_layer(shared.free, fixed);
         model =

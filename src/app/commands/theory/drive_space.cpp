@@ -2,7 +2,6 @@
 
 #include "app/commands/command.hpp"
 #include "core/typed_unit.hpp"
-#include "theory/design.hpp"
 
 #include <sstream>
 

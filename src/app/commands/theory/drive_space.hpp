@@ -8,7 +8,7 @@
 
 namespace vibrotrough::app {
 
-/// The options of `design` and `theory design` that say among which drives they choose.
+/// The options of `design` that say among which drives it chooses.
 struct DriveTexts {
     Text rpm, frequency, stroke, amplitude;  ///< of each pair one
     Text poles, mains, slip;                 ///< of the motors that turn the shaft, instead of its speed

@@ -2,6 +2,8 @@
 
 #include "app/commands/option_table.hpp"
 #include "theory/conveyor.hpp"
+#include "theory/drive.hpp"
+#include "theory/inputs.hpp"
 #include "theory/quantities.hpp"
 #include "theory/rolling_layer.hpp"
 #include "theory/unusual.hpp"

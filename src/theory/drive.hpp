@@ -1,9 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <vector>
-
 namespace vibrotrough::theory {
 
 /// The values that a quantity may take.
@@ -43,25 +39,12 @@ void check(DriveSpace const& space);
 /// log(Gamma / Gamma_max). Zero or less within the limits; the ranges are not looked at.
 double excess(DriveSpace const& space, Drive const& drive);
 
-/// A number that depends on the drive.
-using DriveFunction = std::function<double(Drive const&)>;
+/// The steepest inclination of a design, in rad, at which |tan(alpha)| is 0.95 mu: beyond it the speed
+/// depends on the last digit of the friction coefficient, and beyond mu it is unbounded.
+double steepest_slope(double friction);
 
-/// How long best_drive() searches.
-struct DriveSearchSettings {
-    int global_evaluations = 60000;  ///< of ISRES
-    int local_evaluations = 4000;    ///< of COBYLA, after it
-};
-
-/// Finds the drive with the largest merit: NLopt's ISRES over logarithms of frequency and amplitude and the
-/// two angles, refined by COBYLA. The search is random with a fixed seed. The answer is the best of all
-/// drives that were looked at and that keep every limit, without any tolerance.
-/// @param merit     not finite where the drive cannot be used
-/// @param excesses  further limits: each is relative, such as log(value / limit), and must not be positive
-/// @return nothing when no drive that keeps all limits was found
-/// @throws std::invalid_argument as check(), and when even the lowest frequency and amplitude exceed the
-/// largest machine number or throw number
-std::optional<Drive> best_drive(DriveSpace const& space, DriveFunction const& merit,
-                                std::vector<DriveFunction> const& excesses = {},
-                                DriveSearchSettings const& settings = {});
+/// The inclinations of a range at which |tan(alpha)| <= 0.95 mu.
+/// @throws std::invalid_argument when there are none
+Range with_friction_margin(Range inclination, double friction);
 
 }  // namespace vibrotrough::theory
