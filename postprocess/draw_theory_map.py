@@ -40,20 +40,17 @@ LETTERS = "F flight, P slide forwards, N slide backwards, R rest; P', N' directl
 class TheoryMap:
     def __init__(self, path: pathlib.Path) -> None:
         try:
-            file = vibrotrough.open_sound(path)
+            file = vibrotrough.open_theory(path)
         except (OSError, ValueError) as error:
             raise SystemExit(str(error)) from error
-        with file:
-            if file.attrs["format"] != "vibrotrough theory map":
-                raise SystemExit(f"{path} is not a map of the theory; make one with vibrotrough theory map")
-            self.x, self.y = file["x"][:], file["y"][:]
-            self.x_name, self.y_name = file.attrs["x_name"], file.attrs["y_name"]
-            self.efficiency = file["velocity_efficiency"][:]
-            self.mode = file["mode"][:]
-            self.modes = [text for text in file["modes"].asstr()[:]]
-            lines = file["boundaries"]
-            self.lines = np.stack([lines["x0"][:], lines["y0"][:], lines["x1"][:], lines["y1"][:]], axis=1)
-            self.fixed = {name: float(value[()]) for name, value in file["fixed"].items()} if "fixed" in file else {}
+        if file.attributes["format"] != "vibrotrough theory map":
+            raise SystemExit(f"{path} is not a map of the theory; make one with vibrotrough theory map")
+        self.x, self.y = np.asarray(file["x"]), np.asarray(file["y"])
+        self.x_name, self.y_name = file.attributes["x_name"], file.attributes["y_name"]
+        self.efficiency, self.mode = np.asarray(file["velocity_efficiency"]), np.asarray(file["mode"])
+        self.modes = list(file["modes"])
+        self.lines = np.stack([np.asarray(file[f"boundaries/{name}"]) for name in ("x0", "y0", "x1", "y1")], axis=1)
+        self.fixed = {name.removeprefix("fixed/"): float(file[name][0]) for name in file if name.startswith("fixed/")}
 
     def caption(self) -> str:
         return ", ".join(f"{WORDS.get(name, name)} = {value:g}" for name, value in self.fixed.items())

@@ -23,7 +23,6 @@ from collections import defaultdict
 from collections.abc import Mapping
 from typing import Any
 
-import h5py
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -48,20 +47,12 @@ APART = 0.015  # of the axis: from series to series where several have a point a
 
 def read_campaign(path: pathlib.Path) -> tuple[Columns, dict[str, str], dict[str, Any]]:
     """Columns of campaign.h5 as arrays, their units, and the root attributes. Swept keys are below swept/."""
-    columns: Columns = {}
-    units: dict[str, str] = {}
-
-    def keep(name: str, data: object) -> None:
-        if isinstance(data, h5py.Dataset) and not name.startswith("observables/"):
-            columns[name] = data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
-            units[name] = str(data.attrs.get("units", "1"))
-
     try:
-        with vibrotrough.open_sound(path) as file:
-            file.visititems(keep)
-            return columns, units, dict(file.attrs)
+        campaign = vibrotrough.open_campaign(path)
     except (OSError, ValueError) as error:
         raise Problem(f"cannot read {path} ({error}); give a campaign's folder") from error
+    columns = {name: np.asarray(campaign[name]) for name in campaign if not name.startswith("observables/")}
+    return columns, {name: campaign[name].units for name in columns}, campaign.attributes
 
 
 def line_key(row: dict[str, str]) -> LineKey:

@@ -14,16 +14,14 @@
     vibrotrough.Campaign("pellets.toml").run()                  # plans and runs, by the program; see help(vibrotrough.Campaign)
     vibrotrough.theory.solve(rpm=960, stroke_mm=9.7, vibration_angle_deg=30, friction=0.3)      # see help(vibrotrough.theory)
 
-Everything is read at once, so files may be renewed meanwhile. A file whose bytes do not match the SHA-256 in its last line is refused with ValueError. `vibrotrough quantities` prints
+Everything is read at once, so files may be renewed meanwhile. A damaged file is refused with ValueError. `vibrotrough quantities` prints
 all names. A file of version 0.2.0 is read under today's names, and the names of that version are still understood.
 Needs h5py and numpy, and to_dataframe() pandas; the theory needs its compiled part (pip install --no-build-isolation ./postprocess).
 """
 
 from __future__ import annotations
 
-import hashlib
 import importlib
-import io
 import os
 import pathlib
 import stat
@@ -78,16 +76,16 @@ def _read(dataset: h5py.Dataset) -> Array:
     values = dataset.asstr()[()] if h5py.check_string_dtype(dataset.dtype) else dataset[()]
     if "units" not in dataset.attrs:
         raise ValueError(f"{dataset.name} does not tell its units; Vibrotrough did not write it")
-    return Array(values, str(dataset.attrs["units"]), str(dataset.attrs.get("description", "")))
+    return Array(values, text(dataset.attrs["units"]), text(dataset.attrs.get("description", "")))
 
 
 def _read_fields(table: h5py.Dataset) -> Iterator[tuple[str, Array]]:
     """The fields of a table, by name, with their units and descriptions."""
-    rows = table[()]
+    rows = table[0] if table.name == "/case" else table[()]  # a case has one row
     words = zip(table.dtype.names, table.attrs["units"], table.attrs["description"])
     for name, units, description in words:
         values = rows[name]
-        yield name, Array(np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values, units, description)
+        yield name, Array(np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values, text(units), text(description))
 
 
 # Names of version 0.2.0 that were replaced, as `vibrotrough quantities --json` prints them. A value is found under both, and listed under
@@ -114,7 +112,6 @@ def current_name(path: str) -> str:
 
 
 _LARGEST_FILE = 4 << 30  # bytes
-_LINE_BEGIN, _LINE_LENGTH = b"\nvibrotrough sha256 ", 85
 
 
 def read_regular(path: str | os.PathLike[str], largest: int = _LARGEST_FILE) -> bytes:
@@ -127,21 +124,9 @@ def read_regular(path: str | os.PathLike[str], largest: int = _LARGEST_FILE) -> 
         return file.read()
 
 
-def _sound_bytes(path: pathlib.Path) -> bytes:
-    """The bytes of a file before its last line, which holds their SHA-256. @raises ValueError, OSError"""
-    content = read_regular(path)
-    body, line = content[:-_LINE_LENGTH], content[-_LINE_LENGTH:]
-    if line != _LINE_BEGIN + hashlib.sha256(body).hexdigest().encode() + b"\n":
-        raise ValueError(f"{path} is damaged (its bytes do not match the SHA-256 in its last line); delete it, and let vibrotrough make it again")
-    return body
-
-
-def open_sound(path: str | os.PathLike[str]) -> h5py.File:
-    """An HDF5 file that vibrotrough wrote, for reading. What is read from it are the very bytes whose SHA-256 was found right.
-
-    @raises ValueError when the file is damaged, OSError when it cannot be read
-    """
-    return h5py.File(io.BytesIO(_sound_bytes(pathlib.Path(path))), "r")
+def text(value: Any) -> str:
+    """The text of an attribute. h5py gives those of vibrotrough's files, whose texts have a fixed length, as bytes."""
+    return value.decode("utf-8") if isinstance(value, bytes) else str(value)
 
 
 class File:
@@ -152,12 +137,17 @@ class File:
     def __init__(self, path: str | os.PathLike[str], *wanted_formats: str) -> None:
         self.path = pathlib.Path(path)
         self._arrays: dict[str, Array] = {}
-        with open_sound(self.path) as file:
-            self.attributes: dict[str, Any] = dict(file.attrs)
-            found = self.attributes.get("format")
-            if found not in wanted_formats:
-                raise ValueError(f"{self.path} holds a '{found}', not a '{wanted_formats[-1]}'")
-            file.visititems(lambda name, item: self._keep(name, item))
+        if not self.path.is_file():
+            raise OSError(f"{self.path} is not a file")
+        try:
+            with h5py.File(self.path) as file:
+                self.attributes: dict[str, Any] = {name: text(value) if isinstance(value, (bytes, str)) else value for name, value in file.attrs.items()}
+                found = self.attributes.get("format")
+                if found not in wanted_formats:
+                    raise ValueError(f"{self.path} holds a '{found}', not a '{wanted_formats[-1]}'")
+                file.visititems(lambda name, item: self._keep(name, item))
+        except (OSError, RuntimeError, KeyError) as error:  # h5py says by all three that a checksum is wrong
+            raise ValueError(f"{self.path} is damaged ({error}); delete it, and let vibrotrough make it again") from error
 
     def _keep(self, name: str, item: object) -> None:
         if not isinstance(item, h5py.Dataset):

@@ -59,30 +59,33 @@ fs::path folder_of(fs::path const& path) {
     throw MissingError(fmt::format("cannot write {} ({}); {}", path.string(), reason, cure));
 }
 
-/// Writes into a pipe or a device, which must not be replaced by a file. A pipe waits for its reader.
-/// @return whether `path` is one
-bool write_into_special_file(fs::path const& path, std::string_view content) {
+/// Whether there is a pipe or a device of characters, which must not be replaced by a file but can be written
+/// into. What can be neither replaced nor written into is refused.
+bool is_stream(fs::path const& path) {
     struct stat status {};
     if (::lstat(path.c_str(), &status) != 0) return false;
     if (S_ISLNK(status.st_mode)) {
         std::error_code ignored;
         // /dev/stdout is such a link, wherever the stream leads.
-        bool const is_stream = fs::read_symlink(path, ignored).native().starts_with("/proc/");
+        bool const is_link_to_stream = fs::read_symlink(path, ignored).native().starts_with("/proc/");
         bool const leads_to_file = ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
-        if (!is_stream && (leads_to_file || S_ISDIR(status.st_mode))) return false;
+        if (!is_link_to_stream && (leads_to_file || S_ISDIR(status.st_mode))) return false;
         refuse_to_write(path, "it is a link to a device, a pipe or an open file", "name what it leads to");
     }
-    if (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) return false;
     if (S_ISSOCK(status.st_mode) || S_ISBLK(status.st_mode))
         refuse_to_write(path, "it is a socket or a disk", "choose another name");
+    return !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
+/// A pipe waits for its reader.
+void write_into_stream(fs::path const& path, std::string_view content) {
     Descriptor const file(::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
     if (!file.is_open() || !write_all(file.number(), content))
         refuse_to_write(path, reason_of(errno), "choose another name");
-    return true;
 }
 
 void write_and_rename(fs::path const& path, std::string_view content, Sync sync) {
-    if (write_into_special_file(path, content)) return;
+    if (is_stream(path)) return write_into_stream(path, content);
     NewFile file(path);
     file.write(content);
     file.finish(sync);
@@ -128,6 +131,8 @@ std::string read_opened(fs::path const& path, Kinds kinds, std::size_t limit) {
 }  // namespace
 
 NewFile::NewFile(fs::path path) : path_(std::move(path)), temporary_(path_) {
+    if (is_stream(path_))
+        refuse_to_write(path_, "it is a device or a pipe, and not a file", "choose another name");
     temporary_ += ".part";
     do {
         file_ = Descriptor(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));

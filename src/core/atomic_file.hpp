@@ -42,7 +42,8 @@ enum class Sync { yes, no };
 /// the next one. A file that is replaced hands on its mode.
 class NewFile {
   public:
-    /// Begins the file. @throws MissingError when it cannot be made, a DiskFullError when the disk is full
+    /// Begins the file. @throws MissingError when it cannot be made or would replace something that is not a
+    /// file, a DiskFullError when the disk is full
     explicit NewFile(std::filesystem::path path);
     /// Removes what was written, unless it was finished.
     ~NewFile();
@@ -51,14 +52,16 @@ class NewFile {
 
     /// The open file, for a library that writes it.
     int descriptor() const { return file_.number(); }
+    /// Its name until it is finished, for a library that opens it itself.
+    std::filesystem::path const& temporary() const { return temporary_; }
     /// Adds bytes. @throws MissingError as the constructor
     void write(std::string_view bytes) const;
     /// Gives the file its name. @throws MissingError as the constructor
     void finish(Sync sync);
-
-  private:
+    /// Throws what errno says of an attempt to write the file.
     [[noreturn]] void refuse() const;
 
+  private:
     std::filesystem::path path_, temporary_;
     Descriptor file_;
 };

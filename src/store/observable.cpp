@@ -2,7 +2,7 @@
 
 #include "core/hash.hpp"
 #include "core/quantity.hpp"
-#include "store/hdf5_memory_file.hpp"
+#include "store/hdf5_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -35,9 +35,9 @@ constexpr std::array known_observables{
     ObservableEntry{"cycles_discarded", "int32", "cases", "1",
                     "Cycles of each packing that are left out as start-up"},
     ObservableEntry{"cycles_measured", "int32", "cases", "1", "Cycles of each packing that are kept"},
-    ObservableEntry{"file", "text", "scalar", "1", "Name of the file with the function"},
-    ObservableEntry{"source", "text", "scalar", "1", "Text of that file"},
-    ObservableEntry{"source_sha256", "text", "scalar", "1", "SHA-256 of that file"},
+    ObservableEntry{"file", "text", "1", "1", "Name of the file with the function"},
+    ObservableEntry{"source", "text", "1", "1", "Text of that file"},
+    ObservableEntry{"source_sha256", "text", "1", "1", "SHA-256 of that file"},
 };
 
 double or_nan(std::optional<double> const& value) {
@@ -47,7 +47,7 @@ double or_nan(std::optional<double> const& value) {
 /// Writes the datasets of one observable below observables/NAME.
 class Group {
   public:
-    Group(Hdf5MemoryFileWriter& file, std::span<CaseRecord const> cases, Observable const& observable)
+    Group(Hdf5Writer& file, std::span<CaseRecord const> cases, Observable const& observable)
         : file_(file), cases_(cases), observable_(observable) {}
 
     void write() {
@@ -61,9 +61,8 @@ class Group {
     }
 
   private:
-    void put(std::string_view name, Values const& values, Rank rank, std::string_view unit,
-             std::string_view meaning) {
-        file_.dataset(fmt::format("observables/{}/{}", observable_.name, name), values, rank, unit, meaning);
+    void put(std::string_view name, Values const& values, std::string_view unit, std::string_view meaning) {
+        file_.dataset(fmt::format("observables/{}/{}", observable_.name, name), values, unit, meaning);
     }
 
     static std::string_view meaning_of(std::string_view name) {
@@ -71,7 +70,7 @@ class Group {
     }
 
     void text(std::string_view name, std::string const& value) {
-        put(name, std::vector<std::string>{value}, Rank::scalar, "1", meaning_of(name));
+        put(name, std::vector<std::string>{value}, "1", meaning_of(name));
     }
 
     template <typename Function>
@@ -81,7 +80,7 @@ class Group {
             ObservedCase const* const one = observable_.of(record);
             values.push_back(one == nullptr ? 0 : value_of(*one));
         }
-        put(name, values, Rank::array, "1", meaning_of(name));
+        put(name, values, "1", meaning_of(name));
     }
 
     void write_numbers() {
@@ -94,9 +93,9 @@ class Group {
             half_widths.push_back(or_nan(value.half_width));
             words.push_back(value.steadiness);
         }
-        put("mean", means, Rank::array, observable_.unit, observable_.meaning);
-        put("half_width", half_widths, Rank::array, observable_.unit, meaning_of("half_width"));
-        put("steadiness", words, Rank::array, "1", meaning_of("steadiness"));
+        put("mean", means, observable_.unit, observable_.meaning);
+        put("half_width", half_widths, observable_.unit, meaning_of("half_width"));
+        put("steadiness", words, "1", meaning_of("steadiness"));
     }
 
     void write_curve() {
@@ -118,11 +117,10 @@ class Group {
                      {"at", observable_.over_unit, observable_.over, at},
                      {"mean", observable_.unit, observable_.meaning, means},
                      {"half_width", observable_.unit, meaning_of("curve/half_width"), half_widths},
-                     {"steadiness", "1", meaning_of("curve/steadiness"), words}},
-                    Rank::array);
+                     {"steadiness", "1", meaning_of("curve/steadiness"), words}});
     }
 
-    Hdf5MemoryFileWriter& file_;
+    Hdf5Writer& file_;
     std::span<CaseRecord const> cases_;
     Observable const& observable_;
 };
@@ -176,7 +174,7 @@ std::string_view name_of(measure::Steadiness steadiness) {
     return "steady";
 }
 
-void add_observables(Hdf5MemoryFileWriter& file, std::span<CaseRecord const> cases,
+void add_observables(Hdf5Writer& file, std::span<CaseRecord const> cases,
                      std::span<Observable const> observables) {
     for (Observable const& one : observables) Group(file, cases, one).write();
 }

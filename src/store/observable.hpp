@@ -14,7 +14,7 @@
 
 namespace vibrotrough::store {
 
-class Hdf5MemoryFileWriter;
+class Hdf5Writer;
 
 /// The mean of an observable over the packings of a case, or of one point of its curve.
 struct ObservedValue {
@@ -68,7 +68,7 @@ std::string_view name_of(measure::Steadiness steadiness);
 
 /// Adds the group observables/NAME of each observable to campaign.h5.
 /// @param cases  those of the file, in its order
-void add_observables(Hdf5MemoryFileWriter& file, std::span<CaseRecord const> cases,
+void add_observables(Hdf5Writer& file, std::span<CaseRecord const> cases,
                      std::span<Observable const> observables);
 
 /// A dataset below observables/NAME, for the reference.

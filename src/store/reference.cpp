@@ -123,8 +123,8 @@ std::vector<NameInFile> names_in_result() {
     std::vector<NameInFile> names = head("result");
     for (CaseFact const& fact : case_facts()) add(names, "@", word_type, scalar, fact.entry);
     for (Entry const& entry : {scenario_entry(), certificate_entry(), scenario_files_entry()})
-        add(names, "", word_type, scalar, entry);
-    add_case(names, "case/", scalar);
+        add(names, "", word_type, "1", entry);
+    add_case(names, "case/", "1");
     add_packings(names);
     return names;
 }
@@ -133,6 +133,8 @@ std::vector<NameInFile> names_in_campaign() {
     std::vector<NameInFile> names = head("campaign");
     names.push_back({"@swept_keys", word_type, scalar, "1",
                      "Keys of the campaign file that differ between the cases, separated by blanks"});
+    names.push_back({"@made_of", word_type, scalar, "1",
+                     "Digest of the results and all else that this table was made from"});
     names.push_back(
         {"@program_version", word_type, scalar, "1", "Version of Vibrotrough that wrote this table"});
     names.push_back({"@git_commit", word_type, scalar, "1", "Commit that this Vibrotrough was built from"});

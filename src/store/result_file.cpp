@@ -6,7 +6,7 @@
 #include "core/version.hpp"
 #include "measure/reaction.hpp"
 #include "scenario/reader/campaign_file.hpp"
-#include "store/hdf5_memory_file.hpp"
+#include "store/hdf5_file.hpp"
 #include "store/material_flow_tables.hpp"
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
@@ -25,6 +25,14 @@ namespace {
 
 constexpr char const* result_format = "vibrotrough result";
 constexpr char const* campaign_format = "vibrotrough campaign";
+
+using Tables = std::map<std::string, Hdf5Table>;
+
+Hdf5Table const& find(Tables const& tables, std::string const& path) {
+    auto const found = tables.find(path);
+    if (found == tables.end()) throw Hdf5Error("find the dataset " + path);
+    return found->second;
+}
 
 /// The value of each record in the form that the files store.
 template <typename Record, typename Function>
@@ -69,23 +77,18 @@ void read_column(Hdf5Table const& table, Quantity const& quantity, std::vector<P
     });
 }
 
-void read_packings(Hdf5MemoryFileReader const& file, std::vector<PackingRecord>& packings) {
-    Hdf5Table const table = file.table("packings", Rank::array);
+void read_packings(Tables const& tables, std::vector<PackingRecord>& packings) {
+    Hdf5Table const& table = find(tables, "packings");
     packings.resize(table.rows());
     for (Quantity const& quantity : quantities()) read_column(table, quantity, packings);
 }
 
 /// Reads the columns of all tables of a packing.
 template <typename Entries>
-void read_tables(Hdf5MemoryFileReader const& file, std::size_t number, PackingRecord& packing,
-                 Entries const& entries) {
-    std::map<std::string_view, Hdf5Table> tables;
+void read_tables(Tables const& tables, std::size_t number, PackingRecord& packing, Entries const& entries) {
     for (auto const& entry : entries) {
-        std::string_view const group = group_of(entry);
-        auto found = tables.find(group);
-        if (found == tables.end())
-            found = tables.emplace(group, file.table(packing_path(group, number), Rank::array)).first;
-        entry.field(packing) = found->second.template values<double>(std::string(entry.entry.name));
+        Hdf5Table const& table = find(tables, packing_path(group_of(entry), number));
+        entry.field(packing) = table.values<double>(std::string(entry.entry.name));
     }
 }
 
@@ -108,8 +111,9 @@ void check_series(PackingRecord const& packing, std::size_t number) {
 }
 
 /// Reads `case`, of which only the estimate is not in the scenario or the packings.
-measure::CaseEstimate read_case_values(Hdf5MemoryFileReader const& file) {
-    Hdf5Table const table = file.table("case", Rank::scalar);
+measure::CaseEstimate read_case_values(Tables const& tables) {
+    Hdf5Table const& table = find(tables, "case");
+    if (table.rows() != 1) throw Hdf5Error("use the table case, it has not one row");
     measure::CaseEstimate estimate{};
     from_stored(table.values<double>("efficiency").front(), estimate.mean);
     from_stored(table.values<double>("efficiency_half_width").front(), estimate.half_width);
@@ -133,15 +137,14 @@ measure::CaseEstimate read_case_values(Hdf5MemoryFileReader const& file) {
 }
 
 template <typename Entries>
-void add_tables(Hdf5MemoryFileWriter& file, std::size_t number, PackingRecord const& packing,
-                Entries const& entries) {
+void add_tables(Hdf5Writer& file, std::size_t number, PackingRecord const& packing, Entries const& entries) {
     std::vector<std::pair<std::string_view, std::vector<Hdf5Column>>> tables;
     for (auto const& entry : entries) {
         if (tables.empty() || tables.back().first != group_of(entry)) tables.push_back({group_of(entry), {}});
         auto const& [name, units, meaning] = entry.entry;
         tables.back().second.push_back({name, units, meaning, entry.field(packing)});
     }
-    for (auto const& [group, columns] : tables) file.table(packing_path(group, number), columns, Rank::array);
+    for (auto const& [group, columns] : tables) file.table(packing_path(group, number), columns);
 }
 
 /// The quantities of the table `case`, with meanings that last as long as the program.
@@ -173,32 +176,35 @@ std::vector<Hdf5Column> packings_table(CaseRecord const& record) {
     return columns;
 }
 
-void check_kind(Hdf5MemoryFileReader const& file, std::filesystem::path const& path) {
-    if (!file.has_attribute("format") || file.text_attribute("format") != result_format) {
+void check_kind(Hdf5Reader const& file, std::filesystem::path const& path) {
+    auto const version = file.whole_number("schema_version");
+    if (version && *version < result_schema_version) {
+        throw core::InputError(fmt::format(
+            "{} was written by an older version of Vibrotrough (schema {}; this one reads {}); 'vibrotrough "
+            "run' writes it again from its packings, without the engine",
+            path.string(), *version, result_schema_version));
+    }
+    if (!version || file.text("format") != result_format) {
         throw core::InputError(
             fmt::format("{} is not a result of Vibrotrough (its root attribute "
                         "'format' is not '{}'); give the result.h5 of a case",
                         path.string(), result_format));
     }
-    int const version = file.integer_attribute("schema_version");
-    if (version == result_schema_version) return;
-    bool const newer = version > result_schema_version;
-    throw core::InputError(
-        fmt::format("{} was written by {} Vibrotrough ({}, schema {}; this one reads {}); {}", path.string(),
-                    newer ? "a newer" : "an older", file.text_attribute("program_version"), version,
-                    result_schema_version,
-                    newer ? "use that version"
-                          : "'vibrotrough run' writes it again from its packings, without the engine"));
+    if (*version == result_schema_version) return;
+    throw core::InputError(fmt::format(
+        "{} was written by a newer Vibrotrough ({}, schema {}; this one reads {}); use that version",
+        path.string(), file.text("program_version"), *version, result_schema_version));
 }
 
-CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path const& path) {
+CaseRecord read_record(Hdf5Reader const& reader, std::filesystem::path const& path) {
     CaseRecord record{};
     for (CaseFact const& fact : case_facts()) {
-        std::string const text = file.text_attribute(std::string(fact.entry.name));
+        std::string const text = reader.text(std::string(fact.entry.name));
         std::visit([&](auto const& field) { from_stored(text, field(record)); }, fact.field);
     }
+    Tables const file = reader.read_all();
     auto const text = [&file](Entry const& entry) {
-        return file.values<std::string>(std::string(entry.name), Rank::scalar).front();
+        return find(file, std::string(entry.name)).values<std::string>("").at(0);
     };
     record.scenario_toml = text(scenario_entry());
     record.provenance.engine_certificate = text(certificate_entry());
@@ -238,7 +244,7 @@ std::string files_as_json(scenario::Scenario const& scenario) {
 }
 
 /// A table that follows from the packings; none when it has no columns.
-void add_case_table(Hdf5MemoryFileWriter& file, std::string const& name, std::vector<Entry> const& entries,
+void add_case_table(Hdf5Writer& file, std::string const& name, std::vector<Entry> const& entries,
                     std::vector<CaseValues> const& values) {
     std::vector<Hdf5Column> columns;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -249,12 +255,10 @@ void add_case_table(Hdf5MemoryFileWriter& file, std::string const& name, std::ve
             },
             values[i]);
     }
-    if (!columns.empty()) file.table(name, columns, Rank::array);
+    if (!columns.empty()) file.table(name, columns);
 }
 
-/// The bytes of result.h5.
-std::string result_bytes(CaseRecord const& record) {
-    Hdf5MemoryFileWriter file;
+void fill_result(Hdf5Writer& file, CaseRecord const& record) {
     file.attribute("format", result_format);
     file.attribute("schema_version", result_schema_version);
     file.attribute("campaign", record.scenario.campaign);
@@ -266,19 +270,18 @@ std::string result_bytes(CaseRecord const& record) {
             fact.field);
     }
     auto const put = [&file](Entry const& entry, std::string const& text) {
-        file.dataset(std::string(entry.name), std::vector<std::string>{text}, Rank::scalar, entry.units,
-                     entry.meaning);
+        file.dataset(std::string(entry.name), std::vector<std::string>{text}, entry.units, entry.meaning);
     };
     put(scenario_entry(), record.scenario_toml);
     put(certificate_entry(), record.provenance.engine_certificate);
     put(scenario_files_entry(), files_as_json(record.scenario));
-    file.table("case", case_table(record), Rank::scalar);
-    file.table("packings", packings_table(record), Rank::array);
+    file.table("case", case_table(record));
+    file.table("packings", packings_table(record));
     measure::MassFlow const flow = mass_flow_of(record);
     std::vector<Hdf5Column> columns;
     for (auto const& [entry, field] : mass_flow_columns())
         columns.push_back({entry.name, entry.units, entry.meaning, flow.*field});
-    file.table("mass_flow", columns, Rank::array);
+    file.table("mass_flow", columns);
     add_case_table(file, "materials", materials_entries(), materials_table(record));
     add_case_table(file, "materials_along", materials_along_entries(), materials_along_table(record));
     add_case_table(file, "segregation", segregation_entries(), segregation_table(record));
@@ -298,7 +301,6 @@ std::string result_bytes(CaseRecord const& record) {
         for (auto const* const tables : tables_of_screen(record.scenario))
             add_tables(file, i, record.packings[i], *tables);
     }
-    return file.bytes();
 }
 
 std::string names_of(scenario::SweptKeys const& swept) {
@@ -317,19 +319,17 @@ Values swept_values(scenario::Key const& key, std::span<CaseRecord const> cases)
     return stored_values(cases, [&](CaseRecord const& one) { return number_of(one.scenario, key.path); });
 }
 
-}  // namespace
-
-std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord const> cases,
-                           scenario::SweptKeys const& swept, std::span<Observable const> observables) {
-    Hdf5MemoryFileWriter file;
+void fill_campaign(Hdf5Writer& file, CampaignContent const& content) {
+    auto const& [campaign, cases, swept, observables, made_of] = content;
     file.attribute("format", campaign_format);
     file.attribute("schema_version", campaign_schema_version);
     file.attribute("campaign", campaign);
+    file.attribute("made_of", made_of);
     file.attribute("program_version", std::string(core::program_version()));
     file.attribute("git_commit", std::string(core::program_commit()));
     file.attribute("swept_keys", names_of(swept));
     auto const put = [&file](Entry const& entry, Values const& values, std::string const& group = "") {
-        file.dataset(group + std::string(entry.name), values, Rank::array, entry.units, entry.meaning);
+        file.dataset(group + std::string(entry.name), values, entry.units, entry.meaning);
     };
     for (CaseFact const& fact : case_facts())
         std::visit([&](auto const& field) { put(fact.entry, stored_values(cases, field)); }, fact.field);
@@ -337,17 +337,17 @@ std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord con
         put({one->name, one->units, meaning}, stored_values(*one, cases));
     for (scenario::Key const* const key : swept) put(swept_entry(*key), swept_values(*key, cases), "swept/");
     add_observables(file, cases, observables);
-    return file.bytes();
 }
 
+}  // namespace
+
 void write_result(std::filesystem::path const& path, CaseRecord const& record) {
-    core::write_file_atomically(path, result_bytes(record));
+    write_hdf5(path, [&](Hdf5Writer& file) { fill_result(file, record); });
 }
 
 CaseRecord read_result(std::filesystem::path const& path) {
-    std::string bytes = core::read_file(path);
     try {
-        Hdf5MemoryFileReader const file(std::move(bytes));
+        Hdf5Reader const file(path);
         check_kind(file, path);
         return read_record(file, path);
     } catch (core::note::Fault const& fault) {
@@ -355,28 +355,26 @@ CaseRecord read_result(std::filesystem::path const& path) {
             fmt::format("{} is damaged (its scenario_files: {}); delete it and run its case again",
                         path.string(), fault.what()));
     } catch (Hdf5Error const& error) {
-        throw core::InputError(
-            fmt::format("{} is damaged ({}); delete it and run its case again", path.string(), error.what()));
+        throw core::InputError(fmt::format(
+            "{} is damaged ({}); delete it, and 'vibrotrough run' writes it again from its packings",
+            path.string(), error.what()));
     }
 }
 
-void write_campaign(std::filesystem::path const& path, std::string const& campaign,
-                    std::vector<CaseRecord> const& cases, scenario::SweptKeys const& swept,
-                    std::span<Observable const> observables) {
-    core::write_file_atomically(path, campaign_bytes(campaign, cases, swept, observables));
+void write_campaign(std::filesystem::path const& path, CampaignContent const& content) {
+    write_hdf5(path, [&](Hdf5Writer& file) { fill_campaign(file, content); });
 }
 
-CampaignFit fit_of_campaign(std::filesystem::path const& path, scenario::SweptKeys const& swept) {
+std::optional<std::string> made_of(std::filesystem::path const& path) {
     try {
-        Hdf5MemoryFileReader const file(core::read_file(path));
-        if (file.text_attribute("git_commit") != core::program_commit()) return CampaignFit::other_version;
-        bool const same_keys =
-            file.has_attribute("swept_keys") && file.text_attribute("swept_keys") == names_of(swept);
-        return same_keys ? CampaignFit::fits : CampaignFit::other_keys;
+        Hdf5Reader const file(path);
+        if (file.whole_number("schema_version") != campaign_schema_version) return {};
+        file.read_all();  // notices damage
+        return file.text("made_of");
     } catch (core::Error const&) {
-        return CampaignFit::damaged;
+        return {};
     } catch (Hdf5Error const&) {
-        return CampaignFit::damaged;
+        return {};
     }
 }
 

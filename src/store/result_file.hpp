@@ -5,6 +5,7 @@
 #include "store/observable.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,9 +14,9 @@ namespace vibrotrough::store {
 
 /// Version of the layout of result.h5, see the README of this room. It is raised when an older reader would
 /// misunderstand the file.
-constexpr int result_schema_version = 2;
+constexpr int result_schema_version = 3;
 /// Version of the layout of campaign.h5.
-constexpr int campaign_schema_version = 1;
+constexpr int campaign_schema_version = 3;
 
 /// Writes result.h5 under a temporary name, syncs it and renames it.
 /// @throws core::MissingError when it cannot be written
@@ -25,29 +26,21 @@ void write_result(std::filesystem::path const& path, CaseRecord const& record);
 /// @throws core::InputError naming the file when it is damaged, is not a result file, or has another schema
 CaseRecord read_result(std::filesystem::path const& path);
 
-/// The bytes of campaign.h5: one dataset per column, with one value for each case in the order given. The
-/// same cases make the same bytes, so that a file holds these cases exactly if its bytes are these.
-/// @param swept        keys that differ between the cases, each of which becomes a dataset swept/KEY
-/// @param observables  a person's own quantities, each of which becomes a group observables/NAME
-std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord const> cases,
-                           scenario::SweptKeys const& swept = {},
-                           std::span<Observable const> observables = {});
-
-/// Writes campaign.h5 atomically, with campaign_bytes().
-/// @throws core::MissingError when it cannot be written
-void write_campaign(std::filesystem::path const& path, std::string const& campaign,
-                    std::vector<CaseRecord> const& cases, scenario::SweptKeys const& swept = {},
-                    std::span<Observable const> observables = {});
-
-/// Whether a campaign.h5 is what this program would write, as far as the cases do not matter.
-enum class CampaignFit {
-    fits,           ///< written by this version of the program for the same swept keys
-    damaged,        ///< it cannot be read
-    other_keys,     ///< other keys are swept
-    other_version,  ///< written by another version of the program
+/// What campaign.h5 holds.
+struct CampaignContent {
+    std::string campaign;                          ///< its name
+    std::span<CaseRecord const> cases;             ///< a row for each, in this order
+    scenario::SweptKeys swept = {};                ///< keys that differ between the cases: datasets swept/KEY
+    std::span<Observable const> observables = {};  ///< a person's own quantities: groups observables/NAME
+    /// Tells this content from any other; the root attribute made_of.
+    std::string made_of = {};
 };
 
-/// Compares a campaign.h5 with these swept keys and with this program.
-CampaignFit fit_of_campaign(std::filesystem::path const& path, scenario::SweptKeys const& swept);
+/// Writes campaign.h5 as write_result() does.
+/// @throws core::MissingError when it cannot be written
+void write_campaign(std::filesystem::path const& path, CampaignContent const& content);
+
+/// CampaignContent::made_of of a campaign.h5. None when it is damaged or of another version.
+std::optional<std::string> made_of(std::filesystem::path const& path);
 
 }  // namespace vibrotrough::store

@@ -1,4 +1,4 @@
-#include "store/hdf5_memory_file.hpp"
+#include "store/hdf5_file.hpp"
 #include "store/schema.hpp"
 
 #include <cmath>

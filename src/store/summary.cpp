@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t digest_length = 64;  // hexadecimal digits of a SHA-256
+constexpr std::ptrdiff_t digest_length = 64;  // hexadecimal digits of a SHA-256
 
 std::string digest_of(std::span<std::uint8_t const> bytes) {
     return core::sha256_hex({reinterpret_cast<char const*>(bytes.data()), bytes.size()});
@@ -154,10 +154,15 @@ std::vector<std::uint8_t> pack_summary(CaseRecord const& record) {
     return bytes;
 }
 
+std::string digest_of_summary(CaseRecord const& record) {
+    auto const packed = pack_summary(record);
+    return std::string(packed.begin(), packed.begin() + digest_length);
+}
+
 CaseRecord unpack_summary(std::span<std::uint8_t const> bytes, scenario::Scenario const& scenario) {
     // The library's reader of CBOR calls itself for every level of nesting, and damaged bytes could overflow
     // the stack. The digest guards against damage, not against an author of bytes with a right digest.
-    std::size_t const start = std::min(bytes.size(), digest_length);
+    std::size_t const start = std::min<std::size_t>(bytes.size(), digest_length);
     auto const cbor = bytes.subspan(start);
     if (!std::ranges::equal(bytes.first(start), digest_of(cbor)))
         throw core::InputError("a summary of a result is damaged (its digest does not match)");

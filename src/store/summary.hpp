@@ -18,6 +18,9 @@ CaseRecord summary_of(CaseRecord const& record);
 /// for it.
 std::vector<std::uint8_t> pack_summary(CaseRecord const& record);
 
+/// The SHA-256 of the packed summary. Results with other numbers have another one.
+std::string digest_of_summary(CaseRecord const& record);
+
 /// Converts a packed summary back.
 /// @param bytes     what pack_summary() returned
 /// @param scenario  of the case

@@ -1,8 +1,7 @@
 #include "store/theory_map.hpp"
 
-#include "core/atomic_file.hpp"
 #include "core/version.hpp"
-#include "store/hdf5_memory_file.hpp"
+#include "store/hdf5_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +11,7 @@
 namespace vibrotrough::store {
 namespace {
 
-constexpr int schema_version = 1;
+constexpr int schema_version = 2;
 
 /// Numbers for the modes that occur, in order of appearance; 0 stands for "none".
 class ModeIndex {
@@ -29,22 +28,21 @@ class ModeIndex {
     std::vector<std::string> names_{"none"};
 };
 
-void write_header(Hdf5MemoryFileWriter& file, std::string const& format) {
+void write_header(Hdf5Writer& file, std::string const& format) {
     file.attribute("format", format);
     file.attribute("schema_version", schema_version);
     file.attribute("program_version", std::string(core::program_version()));
     file.attribute("git_commit", std::string(core::program_commit()));
 }
 
-void write_axis(Hdf5MemoryFileWriter& file, std::string const& name, theory::MapAxis const& axis) {
+void write_axis(Hdf5Writer& file, std::string const& name, theory::MapAxis const& axis) {
     std::vector<double> values;
     for (int i = 0; i < axis.count; ++i) values.push_back(axis.value(i));
     file.attribute(name + "_name", std::string(theory::name_of(axis.input)));
-    file.dataset(name, values, Rank::array, units_of(axis.input),
-                 "Values of the input named by @" + name + "_name");
+    file.dataset(name, values, units_of(axis.input), "Values of the input named by @" + name + "_name");
 }
 
-void write_boundaries(Hdf5MemoryFileWriter& file, theory::Map const& map, ModeIndex& modes) {
+void write_boundaries(Hdf5Writer& file, theory::Map const& map, ModeIndex& modes) {
     std::vector<double> x0, y0, x1, y1;
     std::vector<int> a, b;
     for (theory::BoundaryPiece const& piece : map.boundaries) {
@@ -58,7 +56,7 @@ void write_boundaries(Hdf5MemoryFileWriter& file, theory::Map const& map, ModeIn
     std::string const x_units = units_of(map.x.input), y_units = units_of(map.y.input);
     auto const write = [&](char const* name, Values const& values, std::string const& units,
                            char const* meaning) {
-        file.dataset(std::string("boundaries/") + name, values, Rank::array, units, meaning);
+        file.dataset(std::string("boundaries/") + name, values, units, meaning);
     };
     write("x0", x0, x_units, "Begin of a piece of the line between two modes, x");
     write("y0", y0, y_units, "Begin of a piece of the line between two modes, y");
@@ -98,9 +96,9 @@ std::string units_of(theory::Input input) {
     return name.ends_with("_m") ? "m" : "1";
 }
 
-void write_theory_map(std::filesystem::path const& path, theory::Map const& map,
-                      theory::Inputs const& fixed) {
-    Hdf5MemoryFileWriter file;
+namespace {
+
+void fill_map(Hdf5Writer& file, theory::Map const& map, theory::Inputs const& fixed) {
     write_header(file, "vibrotrough theory map");
     write_axis(file, "x", map.x);
     write_axis(file, "y", map.y);
@@ -108,7 +106,7 @@ void write_theory_map(std::filesystem::path const& path, theory::Map const& map,
         auto const input = static_cast<theory::Input>(i);
         if (auto const value = fixed.get(input)) {
             file.dataset("fixed/" + std::string(theory::name_of(input)), std::vector<double>{*value},
-                         Rank::scalar, units_of(input), "Input that is the same for all points");
+                         units_of(input), "Input that is the same for all points");
         }
     }
     ModeIndex modes;
@@ -134,23 +132,26 @@ void write_theory_map(std::filesystem::path const& path, theory::Map const& map,
     write("outcome", outcome, "0 periodic, 1 runs away, 2 indifferent, 3 no period found");
     if (!map.motions.empty()) write_motions(map, write);
     write_boundaries(file, map, modes);
-    file.dataset("modes", modes.names(), Rank::array, "1", "Phases of each mode in order");
-    file.dataset("cpu_time_per_solution", std::vector<double>{map.cpu_seconds_per_solution}, Rank::scalar,
-                 "s", "CPU time of all threads over the number of points");
-    core::write_file_atomically(path, file.bytes());
+    file.dataset("modes", modes.names(), "1", "Phases of each mode in order");
+    file.dataset("cpu_time_per_solution", std::vector<double>{map.cpu_seconds_per_solution}, "s",
+                 "CPU time of all threads over the number of points");
+}
+
+}  // namespace
+
+void write_theory_map(std::filesystem::path const& path, theory::Map const& map,
+                      theory::Inputs const& fixed) {
+    write_hdf5(path, [&](Hdf5Writer& file) { fill_map(file, map, fixed); });
 }
 
 void write_theory_table(std::filesystem::path const& path, std::vector<TheoryColumn> const& columns) {
-    Hdf5MemoryFileWriter file;
-    write_header(file, "vibrotrough theory table");
-    for (TheoryColumn const& column : columns) {
-        if (!column.texts.empty()) {
-            file.dataset(column.name, column.texts, Rank::array, column.units, column.description);
-        } else {
-            file.dataset(column.name, column.numbers, Rank::array, column.units, column.description);
+    write_hdf5(path, [&](Hdf5Writer& file) {
+        write_header(file, "vibrotrough theory table");
+        for (TheoryColumn const& one : columns) {
+            Values const values = one.texts.empty() ? Values(one.numbers) : Values(one.texts);
+            file.dataset(one.name, values, one.units, one.description);
         }
-    }
-    core::write_file_atomically(path, file.bytes());
+    });
 }
 
 }  // namespace vibrotrough::store

@@ -67,7 +67,7 @@ TEST_F(Observables, AreInCampaignH5AndMakeItOutdated) {
     EXPECT_EQ(campaign_file_state(plan), CampaignFileState::up_to_date);
     std::string const before = core::read_file(folder / "campaign.h5");
     write_observables(folder, {number("one", observed)});
-    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::of_other_results);
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::outdated);
     write_campaign_file(plan);
     EXPECT_EQ(campaign_file_state(plan), CampaignFileState::up_to_date);
     EXPECT_GT(core::read_file(folder / "campaign.h5").size(), before.size());

@@ -119,7 +119,6 @@ TEST_F(Overview, CampaignFileOfOtherSweptKeysIsOutdated) {
     EXPECT_TRUE(is_campaign_file_outdated(plan));
 }
 
-// That another version wrote it is the store's to tell, and end_to_end.archive has such a file.
 TEST_F(Overview, CampaignFileSaysInWhatItIsOutdated) {
     fs::path const file = folder / "campaign.h5";
     EXPECT_EQ(campaign_file_state(plan), CampaignFileState::missing);
@@ -128,14 +127,14 @@ TEST_F(Overview, CampaignFileSaysInWhatItIsOutdated) {
     EXPECT_EQ(campaign_file_state(plan), CampaignFileState::up_to_date) << "nothing that it could lack";
     fs::create_directories(planned.folder);
     store::write_result(planned.result_file(), store::sample_record(planned.id));
-    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::damaged);
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::outdated);
     fs::remove(file);
     EXPECT_EQ(campaign_file_state(plan), CampaignFileState::missing);
     EXPECT_TRUE(is_campaign_file_outdated(plan));
     write_campaign_file(plan);
     EXPECT_EQ(campaign_file_state(plan), CampaignFileState::up_to_date);
     plan.swept = {scenario::find_key("grains.friction")};
-    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::of_other_keys);
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::outdated);
     EXPECT_TRUE(is_campaign_file_outdated(plan));
 }
 
@@ -147,7 +146,7 @@ TEST_F(Overview, CampaignFileIsComparedByWhatItHoldsAndNotByTimes) {
     fs::create_directories(planned.folder);
     store::write_result(planned.result_file(), store::sample_record(planned.id));
     fs::last_write_time(planned.result_file(), fs::last_write_time(file) - std::chrono::hours(24));
-    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::of_other_results);
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::outdated);
     EXPECT_TRUE(is_campaign_file_outdated(plan));
     write_campaign_file(plan);
     EXPECT_EQ(campaign_file_state(plan), CampaignFileState::up_to_date);
@@ -157,7 +156,7 @@ TEST_F(Overview, CampaignFileIsComparedByWhatItHoldsAndNotByTimes) {
     *other.estimate.mean += 0.01;
     store::write_result(planned.result_file(), other);
     fs::last_write_time(planned.result_file(), fs::last_write_time(file) - std::chrono::hours(24));
-    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::of_other_results);
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::outdated);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 the program. A stub stands in for the engine here, and only here.
 """
 
-import hashlib
 import json
 import math
 import os
@@ -11,6 +10,9 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+import h5py
+import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
 from trough_program import PROGRAM, EndToEndTest  # noqa: E402
@@ -123,15 +125,12 @@ class ManyCases(EndToEndTest):
         shutil.copy(campaign, self.output / "campaign.toml")
 
     def make_results(self, campaign):
-        """Gives each case a result.h5: that of a case which was run, with another id under a new digest."""
+        """Gives each case a result.h5: that of a case which was run, with another id."""
         template = self.results()[0]
-        bytes_of_one = template.read_bytes()
-        body = bytes_of_one[: bytes_of_one.rindex(b"\nvibrotrough sha256 ")]
-        old = template.parent.name.encode()
-        self.assertIn(old, body)
         for case in json.loads(self.succeed(*self.plan_arguments(campaign)))["cases"]:
-            mine = body.replace(old, case["case"].encode())
             folder = self.output / "cases" / case["case"]
             folder.mkdir(parents=True, exist_ok=True)
-            (folder / "result.h5").write_bytes(mine + f"\nvibrotrough sha256 {hashlib.sha256(mine).hexdigest()}\n".encode())
+            shutil.copy(template, folder / "result.h5")
+            with h5py.File(folder / "result.h5", "r+") as file:
+                file.attrs.modify("case", np.bytes_(case["case"]))
         self.succeed(*self.driver_arguments(campaign))  # finds nothing to run, and reads each result once

@@ -124,18 +124,9 @@ class Archive(EndToEndTest):
                 self.assertNotIn("campaign.h5", bundle.namelist())
             return next(line for line in lines if line.startswith("without campaign.h5"))
 
-        def sign():
-            body = table.read_bytes().partition(b"\nvibrotrough sha256 ")[0]
-            table.write_bytes(body + f"\nvibrotrough sha256 {hashlib.sha256(body).hexdigest()}\n".encode())
-
         with h5py.File(table, "r+") as file:
-            file["efficiency"][0] += 0.01
-        sign()
-        self.assertIn("does not hold the results and numerical errors that are there", said())
-        with h5py.File(table, "r+") as file:
-            file.attrs["git_commit"] = "another"
-        sign()
-        self.assertIn("another version of the program wrote", said())
+            file.attrs.modify("made_of", file.attrs["made_of"][::-1])
+        self.assertIn("does not hold the results that are there", said())
         table.unlink()
         self.assertIn("is not there", said())
         table.write_bytes(content)

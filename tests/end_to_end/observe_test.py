@@ -86,10 +86,10 @@ class Observe(EndToEndTest):
         with h5py.File(self.output / "campaign.h5") as file:
             speed = file["observables/speed_of_grains"]
             self.assertEqual(speed["mean"][0], row["speed_of_grains_m_per_s"])
-            self.assertEqual(speed["mean"].attrs["units"], "m/s")
-            self.assertTrue(speed["mean"].attrs["description"].startswith("Mean velocity of the grains"))
-            self.assertEqual(file["observables/efficiency_again/source"].asstr()[()], AGAIN)
-            self.assertEqual(len(file["observables/efficiency_again/source_sha256"].asstr()[()]), 64)
+            self.assertEqual(speed["mean"].attrs["units"], b"m/s")
+            self.assertTrue(speed["mean"].attrs["description"].startswith(b"Mean velocity of the grains"))
+            self.assertEqual(file["observables/efficiency_again/source"].asstr()[0], AGAIN)
+            self.assertEqual(len(file["observables/efficiency_again/source_sha256"].asstr()[0]), 64)
             curve = file["observables/stress_profile/curve"][:]
             cycles = int(speed["cycles_measured"][0] + speed["cycles_discarded"][0])
         self.assertTrue(np.isfinite(curve["mean"]).all() and curve["mean"][0] > curve["mean"][-1])

@@ -97,7 +97,7 @@ class OwnTrough(EndToEndTest):
             self.assertTrue(copy.read_text().startswith("solid"), copy)
         (result,) = self.results()
         with h5py.File(result) as file:
-            self.assertIn("own.stl", json.loads(file["scenario_files"][()]))
+            self.assertIn("own.stl", json.loads(file["scenario_files"][0]))
         bundle = self.folder / "bundle.zip"
         done = self.call("archive", self.output, "--output", bundle)
         self.assertEqual(done.returncode, 0, done.stderr)

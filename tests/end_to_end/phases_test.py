@@ -56,8 +56,8 @@ class Phases(EndToEndTest):
     def test_a_layer_that_flies(self):
         file, lines = self.run_case({"trough.throw_number": 2.0})
         self.check_curves(file, lines)
-        case = {name: file["case"][name] for name in file["case"].dtype.names}
-        self.assertTrue(file.attrs["layer_mode"].startswith("F"), file.attrs["layer_mode"])
+        case = {name: file["case"][name][0] for name in file["case"].dtype.names}
+        self.assertTrue(file.attrs["layer_mode"].startswith(b"F"), file.attrs["layer_mode"])
         # The trough lets go at Gamma sin(omega t) = 1 (30 degrees); a layer is pressed together and lets go
         # later, by less than a twelfth of a cycle.
         self.assertGreater(case["take_off_phase"], math.radians(25))
@@ -93,7 +93,7 @@ class Phases(EndToEndTest):
     def test_a_layer_that_slides(self):
         file, lines = self.run_case({"trough.throw_number": 0.7})
         self.check_curves(file, lines)
-        self.assertEqual(file.attrs["layer_mode"], "PN")
+        self.assertEqual(file.attrs["layer_mode"], b"PN")
         self.assertEqual(file["case"]["flight_number"], 0)
         self.assertTrue(math.isnan(file["case"]["landing_phase"]))
         # The grains that touch the floor roll as well as slide: the layer's friction is below the grain's.

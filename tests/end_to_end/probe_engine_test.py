@@ -37,7 +37,7 @@ class ProbeEngine(EndToEndTest):
         self.assertEqual((self.output / "certificate.json").read_text(), text)
         (result,) = self.results()
         with h5py.File(result) as file:
-            self.assertEqual(file["engine_certificate"].asstr()[()], text)
+            self.assertEqual(file["engine_certificate"].asstr()[0], text)
         again = self.run_campaign(self.campaign)
         self.assertNotIn("probing", again.stderr)
 
@@ -62,7 +62,7 @@ class ProbeEngine(EndToEndTest):
         self.assertEqual(accepted.returncode, 0, accepted.stderr)
         (result,) = self.results()
         with h5py.File(result) as file:
-            certificate = json.loads(file["engine_certificate"].asstr()[()])
+            certificate = json.loads(file["engine_certificate"].asstr()[0])
         self.assertEqual(certificate["verdict"], "failed")
         self.assertIn("coulomb", [probe["name"] for probe in certificate["probes"] if probe["verdict"] == "failed"])
 

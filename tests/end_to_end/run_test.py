@@ -37,7 +37,7 @@ class Run(EndToEndTest):
     def assert_described(self, file):
         for name, data in datasets(file).items():
             for attribute in ("units", "description"):
-                words = np.atleast_1d(data.attrs[attribute])  # of a table: one for each field
+                words = np.atleast_1d(data.attrs[attribute]).tolist()  # of a table: one for each field
                 self.assertEqual(len(words), len(data.dtype.names or [name]), f"{file.filename}: {attribute} of {name}")
                 self.assertTrue(all(words), f"{file.filename}: {name} has no {attribute}")
 
@@ -51,7 +51,7 @@ class Run(EndToEndTest):
         }  # fmt: skip
         with h5py.File(self.output / "campaign.h5") as file:
             self.assert_described(file)
-            self.assertEqual(file.attrs["campaign"], "small")
+            self.assertEqual(file.attrs["campaign"], b"small")
             self.assertEqual(list(file["case"].asstr()), [row["case"] for row in table])
             self.assertEqual(list(file["outcome"].asstr()), [row["outcome"] for row in table])
             for stored, shown in same.items():
@@ -64,8 +64,8 @@ class Run(EndToEndTest):
         """The numbers of the table, worked out again from the series by the formulas of the glossary."""
         with h5py.File(self.output / "cases" / row["case"] / "result.h5") as file:
             self.assert_described(file)
-            self.assertEqual(file.attrs["case"], row["case"])
-            self.assertIn("LIGGGHTS", file.attrs["engine_version"])
+            self.assertEqual(file.attrs["case"].decode(), row["case"])
+            self.assertIn(b"LIGGGHTS", file.attrs["engine_version"])
             amplitude_x = file["case"]["amplitude"] * math.cos(file["case"]["vibration_angle"])
             means = []
             for packing, discarded in enumerate(file["packings"]["cycles_discarded"], start=1):

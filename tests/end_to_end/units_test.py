@@ -130,7 +130,7 @@ class Units(EndToEndTest):
             self.assertNotIn(impossible, text)
         with h5py.File(self.output / "campaign.h5") as file:
             self.assertEqual(list(file["swept/grains.rolling_friction"]), [0.05, 0.05, 0.2, 0.2])
-            self.assertEqual(file["swept/layer.width"].attrs["units"], "m")
+            self.assertEqual(file["swept/layer.width"].attrs["units"], b"m")
         drawn = self.call("plot", self.output, "--only", "efficiency", "--only", "residuals")
         self.assertEqual(drawn.returncode, 0, drawn.stderr)
         figure = (self.output / "report" / "efficiency.svg").read_text()

@@ -131,10 +131,14 @@ int main(int argc, char** argv) {
         write_result(folder / "kept.h5", sample_mixture(false));
         CaseRecord studied = sample_record();
         studied.studied = {0.034, "fedcba9876543210"};
-        write_campaign(folder / "campaign.h5", "sample", {studied, sample_record("fedcba9876543210", 27.0)},
-                       {vibrotrough::scenario::find_key("trough.frequency"),
-                        vibrotrough::scenario::find_key("grains.rotation")},
-                       sample_observables(studied));
+        std::vector const cases{studied, sample_record("fedcba9876543210", 27.0)};
+        auto const observables = sample_observables(studied);
+        write_campaign(folder / "campaign.h5", {.campaign = "sample",
+                                                .cases = cases,
+                                                .swept = {vibrotrough::scenario::find_key("trough.frequency"),
+                                                          vibrotrough::scenario::find_key("grains.rotation")},
+                                                .observables = observables,
+                                                .made_of = "the sample"});
         return 0;
     } catch (std::exception const& error) {
         std::fprintf(stderr, "%s\n", error.what());

@@ -87,7 +87,7 @@ def walls(run: ValidationCase) -> None:
     rows = []
     for row, folder, result in whole_cases(run, "walls"):
         scale = 2 * math.pi * float(row["amplitude_m"]) * math.cos(math.radians(float(row["vibration_angle_deg"])))
-        box = tomllib.loads(str(result["scenario"]))["layer"]
+        box = tomllib.loads(str(result["scenario"][0]))["layer"]
         speed, seen = lateral_profile(folder / "packing-1" / "dump", metres(box["length"]), metres(box["width"]),
                                       CAMPAIGNS["walls"][0]["output.frames_per_cycle"], 2 if run.quick else START)
         error = speed.std(axis=0, ddof=1) / math.sqrt(len(speed))
@@ -108,7 +108,7 @@ def metres(text: object) -> float:
 def surface(run: ValidationCase) -> None:
     rows, shapes = [], []
     for row, folder, result in whole_cases(run, "waves"):
-        length = metres(tomllib.loads(str(result["scenario"]))["layer"]["length"])
+        length = metres(tomllib.loads(str(result["scenario"][0]))["layer"]["length"])
         found = waves(folder / "packing-1", length, int(result["packings/steps_per_cycle"][0]), 2 if run.quick else START)
         rows.append([f"{float(row['throw_number']):.4g}", row["efficiency"], row["frequency_hz"],
                      *(f"{1e3 * found[name]:.3f}" for name in ("all", "amplitude", "highest", "wavelength")), f"{found['share']:.3f}",

@@ -26,14 +26,8 @@ std::string fault_of(campaign::CampaignFileState state) {
     switch (state) {
         case missing:
             return "which is not there";
-        case damaged:
-            return "which is damaged";
-        case of_other_results:
-            return "which does not hold the results and numerical errors that are there";
-        case of_other_keys:
-            return "which was written when other keys were swept";
-        case of_other_version:
-            return "which another version of the program wrote";
+        case outdated:
+            return "which is damaged or does not hold the results that are there";
         case up_to_date:
             break;
     }

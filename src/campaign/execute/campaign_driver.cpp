@@ -125,7 +125,7 @@ class Driver {
             if (!may_go_on(planned, found.summary->record)) return take_result(one, *found.summary);
         }
         if (found.is_damaged)
-            observer_.noticed(planned, "its result.h5 is damaged or cannot be read, and is replaced");
+            observer_.noticed(planned, "its result.h5 is damaged or of an older version, and is replaced");
         one.known = std::move(found.known);
         one.attempts = found.attempts;
         if (found.summary && is_exhausted(one.known, found.summary->record))

@@ -1,14 +1,18 @@
 #include "campaign/state/overview.hpp"
 
 #include "campaign/state/case_state.hpp"
+#include "campaign/state/notes.hpp"
 #include "campaign/state/numerics_results.hpp"
 #include "campaign/state/observables.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "core/limits.hpp"
 #include "core/parallel.hpp"
+#include "core/version.hpp"
 #include "evaluate/case.hpp"
 #include "store/result_file.hpp"
+#include "store/summary.hpp"
 
 #include <algorithm>
 #include <array>
@@ -89,8 +93,9 @@ std::string fault_of_folder(PlannedCase const& planned) {
 /// Why a result that is there was not used; empty when there is none.
 std::string fault_of_result(PlannedCase const& planned) {
     std::error_code missing;
-    return fs::exists(planned.result_file(), missing) ? "result.h5 is damaged or cannot be read; run again"
-                                                      : "";
+    return fs::exists(planned.result_file(), missing)
+               ? "result.h5 is damaged or of an older version; run again"
+               : "";
 }
 
 CaseOverview survey_without_result(PlannedCase const& planned, bool has_driver) {
@@ -160,6 +165,19 @@ std::vector<store::CaseRecord> result_summaries(Plan const& plan, bool keep = fa
     return records;
 }
 
+/// The SHA-256 of all that campaign.h5 is made from. Times say nothing: a result that was copied keeps its
+/// old one.
+std::string digest_of(Plan const& plan, std::vector<store::CaseRecord> const& records,
+                      std::vector<store::Observable> const& observables) {
+    std::string facts = fmt::format("{}\n{}\n{}\n", core::program_commit(), plan.name, to_json(observables));
+    for (scenario::Key const* const key : plan.swept) facts += fmt::format("{} ", key->path);
+    for (store::CaseRecord const& record : records) {
+        facts += store::digest_of_summary(record);
+        if (record.studied) facts += fmt::format("{} {}", record.studied->error, record.studied->case_id);
+    }
+    return core::sha256_hex(facts);
+}
+
 }  // namespace
 
 std::string_view CaseOverview::label() const {
@@ -206,22 +224,10 @@ CampaignFileState campaign_file_state(Plan const& plan) {
     std::error_code none;
     fs::path const file = plan.folder / "campaign.h5";
     if (!fs::exists(file, none)) return CampaignFileState::missing;
-    // Times say nothing of what a file holds: a result that was copied keeps its old one.
     auto const records = result_summaries(plan);
-    if (records.empty()) return CampaignFileState::up_to_date;
-    switch (store::fit_of_campaign(file, plan.swept)) {
-        case store::CampaignFit::damaged:
-            return CampaignFileState::damaged;
-        case store::CampaignFit::other_keys:
-            return CampaignFileState::of_other_keys;
-        case store::CampaignFit::other_version:
-            return CampaignFileState::of_other_version;
-        case store::CampaignFit::fits:
-            break;
-    }
-    bool const holds_them = core::read_file(file) == store::campaign_bytes(plan.name, records, plan.swept,
-                                                                           read_observables(plan.folder));
-    return holds_them ? CampaignFileState::up_to_date : CampaignFileState::of_other_results;
+    bool const fits =
+        records.empty() || store::made_of(file) == digest_of(plan, records, read_observables(plan.folder));
+    return fits ? CampaignFileState::up_to_date : CampaignFileState::outdated;
 }
 
 bool is_campaign_file_outdated(Plan const& plan) {
@@ -234,8 +240,13 @@ bool is_campaign_file_outdated(Plan const& plan) {
 }
 
 void write_campaign_file(Plan const& plan) {
-    store::write_campaign(plan.folder / "campaign.h5", plan.name, result_summaries(plan, true), plan.swept,
-                          read_observables(plan.folder));
+    auto const records = result_summaries(plan, true);
+    auto const observables = read_observables(plan.folder);
+    store::write_campaign(plan.folder / "campaign.h5", {.campaign = plan.name,
+                                                        .cases = records,
+                                                        .swept = plan.swept,
+                                                        .observables = observables,
+                                                        .made_of = digest_of(plan, records, observables)});
 }
 
 }  // namespace vibrotrough::campaign

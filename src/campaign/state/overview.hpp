@@ -82,16 +82,12 @@ std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity, Ove
 
 /// How campaign.h5 stands to the files from which it is made. Without a result, any one is up to date.
 enum class CampaignFileState {
-    up_to_date,        ///< it holds what there is
-    missing,           ///< there is none
-    damaged,           ///< it cannot be read
-    of_other_results,  ///< it lacks a result or a numerical error, or holds other ones
-    of_other_keys,     ///< written when other keys were swept
-    of_other_version,  ///< another version of the program wrote it
+    up_to_date,  ///< it holds what there is
+    missing,     ///< there is none
+    outdated,    ///< it is damaged, or made from other results, keys or by another version of the program
 };
 
-/// What keeps campaign.h5 from being up to date. Compares what it holds with the results, whatever their
-/// times say.
+/// Whether campaign.h5 is made from what there is now.
 CampaignFileState campaign_file_state(Plan const& plan);
 
 /// Whether campaign.h5 should be written: it is not up to date, and there is a result.

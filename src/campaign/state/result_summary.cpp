@@ -3,8 +3,8 @@
 #include "campaign/state/case_state.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "evaluate/case.hpp"
-#include "store/file_digest.hpp"
 #include "store/summary.hpp"
 
 #include <cstdint>
@@ -36,16 +36,14 @@ std::optional<std::string> stamp_of(std::filesystem::path const& file) {
 /// The first line of the file, in JSON: what the summary was made from. The second one is the SHA-256 of the
 /// result, and the packed summary follows.
 std::string header(std::string const& stamp) {
-    static std::string const layout = Json("vibrotrough summary 4 " + store::summary_layout()).dump();
+    static std::string const layout = Json("vibrotrough summary 5 " + store::summary_layout()).dump();
     return "{\"layout\":" + layout + ",\"result\":" + stamp + "}\n";
 }
 
 constexpr std::size_t digest_line = 65;  ///< length of the second line
 
-/// Whether the result has this digest now.
-bool has_digest(PlannedCase const& planned, std::string_view digest) {
-    auto const now = store::sound_digest(core::read_file(planned.result_file()));
-    return now && *now == digest;
+std::string digest_of_result(PlannedCase const& planned) {
+    return core::sha256_hex(core::read_file(planned.result_file()));
 }
 
 std::optional<store::CaseRecord> read_file(PlannedCase const& planned, std::string const& stamp,
@@ -59,7 +57,8 @@ std::optional<store::CaseRecord> read_file(PlannedCase const& planned, std::stri
         std::string_view const digest = std::string_view(file).substr(expected.size(), digest_line - 1);
         std::span const bytes(reinterpret_cast<std::uint8_t const*>(file.data()), file.size());
         store::CaseRecord record = store::unpack_summary(bytes.subspan(start), planned.scenario());
-        if (record.id == planned.id && (trust == Trust::stamp || has_digest(planned, digest))) return record;
+        if (record.id == planned.id && (trust == Trust::stamp || digest_of_result(planned) == digest))
+            return record;
     } catch (core::Error const&) {
         // Not readable, or not a summary: the same as if it were not there.
     }
@@ -89,10 +88,9 @@ void write_summary(PlannedCase const& planned, store::CaseRecord const& record) 
     if (!stamp) return;
     std::vector<std::uint8_t> const bytes = store::pack_summary(record);
     try {
-        auto const digest = store::stated_digest(core::read_file(planned.result_file()));
-        if (!digest) return;
-        core::replace_file(summary_file(planned),
-                           (header(*stamp) + *digest + "\n").append(bytes.begin(), bytes.end()));
+        core::replace_file(
+            summary_file(planned),
+            (header(*stamp) + digest_of_result(planned) + "\n").append(bytes.begin(), bytes.end()));
     } catch (core::MissingError const&) {
         // The folder may only be read, or the disk is full.
     }
