@@ -1,7 +1,7 @@
 #pragma once
 
 #include "learn/uncertain.hpp"
-#include "theory/drive_search.hpp"
+#include "theory/drive.hpp"
 #include "theory/inputs.hpp"
 
 #include <functional>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/commands/theory/options.hpp"
-#include "theory/drive_search.hpp"
+#include "theory/drive.hpp"
 
 #include <optional>
 #include <vector>
