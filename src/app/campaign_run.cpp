@@ -14,6 +14,7 @@
 #include "core/own_program.hpp"
 #include "deck/campaign_check.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include <CLI/CLI.hpp>
@@ -64,6 +65,13 @@ void check_setup(RunOptions const& options, scenario::RunSettings const& setting
 void tell_left_aside(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
     std::string const words = campaign::describe_left_aside(plan, cases);
     if (!words.empty()) tell("vibrotrough: left aside: {}\n", words);
+}
+
+campaign::PlannedCase const& case_named(campaign::Plan const& plan, std::string const& id) {
+    auto const found = std::ranges::find(plan.cases, id, &campaign::PlannedCase::id);
+    if (found != plan.cases.end()) return *found;
+    throw core::InputError(fmt::format("--case: {} has no case {}; 'vibrotrough status {}' lists them",
+                                       plan.folder.string(), id, plan.folder.string()));
 }
 
 void RunOptions::add_to(CLI::App& command) {

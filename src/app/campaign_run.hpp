@@ -20,6 +20,9 @@ namespace vibrotrough::app {
 /// nothing when nothing is left aside.
 void tell_left_aside(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases);
 
+/// The case that --case names. @throws core::InputError when the campaign has none with this id
+campaign::PlannedCase const& case_named(campaign::Plan const& plan, std::string const& id);
+
 /// The options of every command that simulates a campaign.
 struct RunOptions {
     std::string campaign_file;          ///< path

@@ -18,6 +18,26 @@ double read_core_time(std::string const& text) {
     return read_positive_quantity("--budget", plain, "s", "4 core-hours");
 }
 
+std::map<std::string, scenario::Content> read_place(std::vector<std::string> const& settings,
+                                                    scenario::CaseMaker const& maker) {
+    std::map<std::string, scenario::Content> values;
+    for (std::string const& setting : settings) {
+        auto const equal = setting.find('=');
+        if (equal == std::string::npos || equal == 0)
+            throw core::InputError(
+                fmt::format("--at {}: is not KEY=VALUE; write for example --at {}=...", setting,
+                            maker.varied_keys().empty() ? "throw_number" : maker.varied_keys().front()));
+        try {
+            std::string const key = maker.full_key(setting.substr(0, equal));
+            if (!values.emplace(key, maker.read_value(key, setting.substr(equal + 1))).second)
+                throw core::InputError(fmt::format("{} is given twice; keep one", key));
+        } catch (core::InputError const& error) {
+            throw core::InputError(fmt::format("--at {}: {}", setting, error.what()));
+        }
+    }
+    return values;
+}
+
 int usual_batch(int jobs, campaign::Plan const& plan) {
     int const packings = plan.cases.empty() ? 1 : plan.cases.front().scenario().measure.packings;
     return std::max(1, jobs / std::max(1, packings));

@@ -12,6 +12,12 @@ namespace vibrotrough::app {
 /// "4 core-hours" in core-seconds. @throws core::InputError naming the option --budget
 double read_core_time(std::string const& text);
 
+/// Values of keys that a campaign varies, by their whole paths.
+/// @param settings  of the option --at, each "KEY=VALUE"
+/// @throws core::InputError when one is wrong or given twice
+std::map<std::string, scenario::Content> read_place(std::vector<std::string> const& settings,
+                                                    scenario::CaseMaker const& maker);
+
 /// Cases that are chosen at once unless the user says otherwise: as few as keep all jobs busy, since later
 /// choices know more. Each case begins with several packings.
 int usual_batch(int jobs, campaign::Plan const& plan);

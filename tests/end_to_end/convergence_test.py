@@ -120,7 +120,7 @@ class Convergence(EndToEndTest):
     def test_wrong_input_is_one_line(self):
         campaign = self.write_campaign(SOFT_BLOCK)
         common = ["--output", self.output, "--liggghts", self.engine]
-        self.assert_one_line_error(self.call("convergence", campaign, *common, "--case", "0123"), 2, "no such case", "0123")
+        self.assert_one_line_error(self.call("convergence", campaign, *common, "--case", "0123"), 2, "has no case", "0123")
         self.assert_one_line_error(self.call("convergence", self.folder / "none.toml"), 2, "no such file")
         self.assert_one_line_error(self.call("convergence", self.folder), 2, "not a campaign folder")
         self.assertFalse(self.output.exists(), "nothing was begun")

@@ -60,7 +60,7 @@ class WrongInput(EndToEndTest):
         self.refuse(campaign_text(sweep={"trough.friction": [0.1, 7]}), "7]", "trough.friction: 7 is out of range")
         self.refuse(campaign_text(sweep={"trough.friction": []}), '"trough.friction"', "no values to sweep over")
         self.refuse(campaign_text(sweep={"trough.fiction": [0.1]}), '"trough.fiction"', "did you mean trough.friction?")
-        self.refuse(campaign_text(sweep={"campaign.name": ["a"]}), '"campaign.name"', "a name cannot be swept")
+        self.refuse(campaign_text(sweep={"campaign.name": ["a"]}), '"campaign.name"', "this key cannot be varied")
 
     def test_several_mistakes_are_told_at_once(self):
         changes = {"grains.frictoin": 0.3, "trough.friction": -0.25, "layer.grains": 60.5}

@@ -131,7 +131,7 @@ class Prepare(EndToEndTest):
         for name in ("torque", "lsf"):
             campaign = self.write_campaign()
             campaign.write_text(campaign.read_text() + f'[run]\nexecutor = "{name}"\n')
-            self.assert_one_line_error(self.call(*self.run_arguments(campaign)), 2, f"'{name}' is not an executor", "vibrotrough prepare")
+            self.assert_one_line_error(self.call(*self.run_arguments(campaign)), 2, f"'{name}' is not an allowed value", "local or slurm")
 
     def test_a_file_that_is_not_a_list_is_not_replaced(self):
         campaign = self.write_campaign()

@@ -136,8 +136,8 @@ class Seeing(EndToEndTest):
         for command in ("plot", "report"):
             told = f"has no case 123; 'vibrotrough status {self.output}' lists them"
             self.assert_one_line_error(self.call(command, self.output, "--case", "123"), 2, told)
-            missing = self.call(command, self.output, "--python", "/bin/false")
-            self.assert_one_line_error(missing, 3, "/bin/false does not have all of the modules", "apt-get install python3")
+            missing = self.call(command, self.output, "--python", "/bin/no-python")
+            self.assert_one_line_error(missing, 3, "/bin/no-python does not have all of the modules", "apt-get install python3")
             self.assert_one_line_error(self.call(command, self.output, "--output", "/proc/no/such"), 3, "/proc/no")
         self.assert_one_line_error(self.call("plot", self.folder), 2, "campaign")
 

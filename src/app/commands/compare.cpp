@@ -97,6 +97,45 @@ int run_compare(CompareArguments const& options) {
     return all_well;
 }
 
+constexpr char const* table_help =
+    R"(The columns of the table. After the case comes a column for every key that the campaign sweeps, under
+the name that it has in the campaign file; --sort and --filter take these names, too:
+
+  eta DEM     velocity efficiency of the simulated layer: its mean velocity relative to the trough
+              over omega r cos(beta), +- its half-width for statistics and numerics together
+  eta theory  velocity efficiency of a point mass at the friction of a grain on the trough (at mu)
+              and, after 'vibrotrough friction-test', at that of the whole layer (at mu layer)
+  eta point   velocity efficiency of a point mass with the friction of a grain under the normal
+              force that the layer exerts (its force). Where it differs from the theory, the cause
+              is how the layer presses on the trough. Where the layer differs from it, the cause
+              is how the grains pass friction on. Both hold to about 0.05.
+  difference  eta DEM minus eta theory at mu. In colour: yellow where the layer is faster than the
+              theory, cyan where it is slower, bold from 0.1 on, plain within the interval
+  mass flow   of the simulated layer, +- its half-width, likewise: of the whole trough when
+              its width is known (trough.width, or side walls), else per metre of width
+  mode        how the theory's point mass and the layer move within a period
+
+With --stages, speed is that of the layer at the end of the stage and theory that of a point mass for which the drive of
+this stage never ends; 'distance' is how far the layer moves in the stage, and 'to speed' the time until its speed has
+changed by 95 % of what it changes.
+
+With --budget, eta DEM is followed by +- its statistical and +- its numerical error: half the width of the confidence
+interval of the packings, and how far Young's modulus, box and time step are from their limits. < marks a bound at 95 %
+that is known beforehand. 'vibrotrough convergence' replaces it by the error of the case itself; a star marks one that was
+measured at the nearest case of the campaign and not at this one. 'larger error' says which of the two is larger: more
+cycles do not help where it is the numerical one.
+
+)";
+
+constexpr char const* examples = R"(
+
+Examples:
+  vibrotrough compare runs/demo --csv > demo.csv
+  vibrotrough compare runs/demo --filter 'throw_number>1.8' --sort difference:desc
+  vibrotrough compare runs/mine --filter 'grains.rolling_friction<0.1'
+  vibrotrough compare runs/stages --stages
+  vibrotrough compare supplement.zip)";
+
 }  // namespace
 
 void add_compare(CLI::App& program, int& exit_code) {
@@ -139,44 +178,7 @@ void add_compare(CLI::App& program, int& exit_code) {
                      "Colour the table: auto means on a terminal where NO_COLOR is not set")
         ->check(CLI::IsMember({"auto", "always", "never"}))
         ->capture_default_str();
-    command->footer(
-        std::string(
-            R"(The columns of the table. After the case comes a column for every key that the campaign sweeps, under
-the name that it has in the campaign file; --sort and --filter take these names, too:
-
-  eta DEM     velocity efficiency of the simulated layer: its mean velocity relative to the trough
-              over omega r cos(beta), +- its half-width for statistics and numerics together
-  eta theory  velocity efficiency of a point mass at the friction of a grain on the trough (at mu)
-              and, after 'vibrotrough friction-test', at that of the whole layer (at mu layer)
-  eta point   velocity efficiency of a point mass with the friction of a grain under the normal
-              force that the layer exerts (its force). Where it differs from the theory, the cause
-              is how the layer presses on the trough. Where the layer differs from it, the cause
-              is how the grains pass friction on. Both hold to about 0.05.
-  difference  eta DEM minus eta theory at mu. In colour: yellow where the layer is faster than the
-              theory, cyan where it is slower, bold from 0.1 on, plain within the interval
-  mass flow   of the simulated layer, +- its half-width, likewise: of the whole trough when
-              its width is known (trough.width, or side walls), else per metre of width
-  mode        how the theory's point mass and the layer move within a period
-
-With --stages, speed is that of the layer at the end of the stage and theory that of a point mass for which the drive of
-this stage never ends; 'distance' is how far the layer moves in the stage, and 'to speed' the time until its speed has
-changed by 95 % of what it changes.
-
-With --budget, eta DEM is followed by +- its statistical and +- its numerical error: half the width of the confidence
-interval of the packings, and how far Young's modulus, box and time step are from their limits. < marks a bound at 95 %
-that is known beforehand. 'vibrotrough convergence' replaces it by the error of the case itself; a star marks one that was
-measured at the nearest case of the campaign and not at this one. 'larger error' says which of the two is larger: more
-cycles do not help where it is the numerical one.
-
-)") + mode_letters +
-        R"(
-
-Examples:
-  vibrotrough compare runs/demo --csv > demo.csv
-  vibrotrough compare runs/demo --filter 'throw_number>1.8' --sort difference:desc
-  vibrotrough compare runs/mine --filter 'grains.rolling_friction<0.1'
-  vibrotrough compare runs/stages --stages
-  vibrotrough compare supplement.zip)");
+    command->footer(std::string(table_help) + mode_letters + examples);
     command->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }
 

@@ -40,15 +40,9 @@ std::vector<campaign::NumericsStudy> plan_studies(campaign::Plan const& plan,
             studies.push_back(campaign::plan_study(plan.cases[number], options.half_width));
     }
     for (std::string const& id : options.cases) {
-        auto const planned = std::ranges::find(plan.cases, id, &campaign::PlannedCase::id);
-        if (planned == plan.cases.end()) {
-            throw core::InputError(
-                fmt::format("--case {}: the campaign '{}' has no such case; 'vibrotrough "
-                            "plan' lists the ids of its cases",
-                            id, plan.name));
-        }
+        campaign::PlannedCase const& planned = case_named(plan, id);
         bool const twice = std::ranges::any_of(studies, [&](auto const& one) { return one.case_id == id; });
-        if (!twice) studies.push_back(campaign::plan_study(*planned, options.half_width));
+        if (!twice) studies.push_back(campaign::plan_study(planned, options.half_width));
     }
     return studies;
 }

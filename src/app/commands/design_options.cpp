@@ -46,18 +46,11 @@ struct GivenPlace {
 
 GivenPlace read_places(std::vector<std::string> const& places, scenario::CaseMaker const& maker) {
     GivenPlace given;
-    for (std::string const& text : places) {
-        auto const [name, value] = split_setting("--at", text, "rolling_friction=0.05");
-        try {
-            std::string const key = maker.full_key(name);
-            scenario::Content const content = maker.read_value(key, value);
-            if (auto const* number = std::get_if<double>(&content)) {
-                given.numbers[key] = *number;
-            } else {
-                given.words[key] = content;
-            }
-        } catch (core::InputError const& error) {
-            throw core::InputError(fmt::format("--at {}: {}", text, error.what()));
+    for (auto const& [key, content] : read_place(places, maker)) {
+        if (auto const* number = std::get_if<double>(&content)) {
+            given.numbers[key] = *number;
+        } else {
+            given.words[key] = content;
         }
     }
     return given;

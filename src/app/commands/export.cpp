@@ -119,16 +119,11 @@ int run_export(ExportArguments const& options) {
     view::require_vtk();
     campaign::Plan const plan = campaign::open_plan(options.folder);
     view::Colour const colour = view::colour_named(options.colour);
-    bool known = options.id.empty();
     int exported = 0;
-    for (campaign::PlannedCase const& planned : plan.cases) {
-        if (!options.id.empty() && planned.id != options.id) continue;
-        known = true;
-        exported += export_case(planned, colour);
-    }
-    if (!known) {
-        throw core::InputError(fmt::format("--case: {} has no case {}; 'vibrotrough status {}' lists them",
-                                           options.folder, options.id, options.folder));
+    if (!options.id.empty()) {
+        exported = export_case(case_named(plan, options.id), colour);
+    } else {
+        for (campaign::PlannedCase const& planned : plan.cases) exported += export_case(planned, colour);
     }
     bool const wanted = std::ranges::any_of(
         plan.cases, [](auto const& planned) { return planned.scenario().output.frames_per_cycle > 0; });

@@ -43,9 +43,9 @@ OptionRow of_theory(char const* name, double least, double most, char const* exa
     return row;
 }
 
-std::vector<OptionRow> const& table() {
-    static std::vector<OptionRow> const rows{
-        // What the campaign file has, too. The theory goes further than decks do.
+/// What the campaign file has, too, and what the theory has beyond it, which goes further than decks do.
+std::vector<OptionRow> rows_of_motions() {
+    return {
         within(1e-3, 100, of_key("--throw-number", "trough.throw_number", "throw_number")),
         of_key("--machine-number", "trough.machine_number", "machine_number"),
         of_key("--vibration-angle", "trough.vibration_angle"),
@@ -64,7 +64,6 @@ std::vector<OptionRow> const& table() {
         of_key("--grain-friction", "grains.friction"),
         of_key("--layer-height", "layer.height"),
         of_key("--layer-width", "layer.width"),
-        // The theory's own.
         {"--gravity", "m/s2", 1e-3, 1e3, "9.81 m/s2", "Default: \"9.81 m/s2\""},
         of_theory("--restitution", 0, 0.95, "0.2",
                   "e, normal restitution coefficient, from 0 (plastic, default) to 0.95 (Eq. 23)"),
@@ -85,7 +84,11 @@ std::vector<OptionRow> const& table() {
                   "Height of the layer over its width, for side-wall friction"),
         {"--max-relative-displacement", "", 1e-9, 1000, "1.5",
          "Measured slip from peak to peak, in amplitudes r, from 0 to 2"},
-        // Of a design.
+    };
+}
+
+std::vector<OptionRow> rows_of_designs() {
+    return {
         {"--length", "m", 1e-3, 1e3, "3 m", "Of the trough, for power and time, for example \"3 m\""},
         {"--layer-depth", "m", 1e-6, 10, "5 mm to 60 mm",
          "Range of the layer's depth; default: \"2 mm to 100 mm\""},
@@ -119,8 +122,13 @@ std::vector<OptionRow> const& table() {
         {"--slip", "", 0, 0.3, "0.03",
          "Slip of these motors, by which fraction they are slower than their field, such as 0.03; default: "
          "0"},
-        // Of calibrations and of learning.
-        {"--uncertainty", "", 0, 1000, "0.03", ""},
+    };
+}
+
+/// Of calibrations, of learning, and of long work.
+std::vector<OptionRow> other_rows() {
+    return {
+        {"--uncertainty", "", 1e-6, 1, "0.03", ""},
         {"--common-error", "", 0, 0.5, "0.05",
          "Standard deviation of an error of the model that is the same in all measurements, in velocity "
          "efficiency, for example 0.05; it looks like another friction and widens its interval; default: 0, "
@@ -140,6 +148,15 @@ std::vector<OptionRow> const& table() {
                "Follow so many starts of each motion, for example 64, and write to which motions they lead: "
                "with rebounds there can be several. Default: the standard start alone, at rest at t = 0"}),
     };
+}
+
+std::vector<OptionRow> const& table() {
+    static std::vector<OptionRow> const rows = [] {
+        std::vector<OptionRow> all;
+        for (auto const& part : {rows_of_motions(), rows_of_designs(), other_rows()})
+            all.insert(all.end(), part.begin(), part.end());
+        return all;
+    }();
     return rows;
 }
 

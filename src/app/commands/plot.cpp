@@ -26,14 +26,6 @@ fs::path output_folder(PlotArguments const& options) {
     return options.output.empty() ? fs::path(options.folder) / "report" : fs::path(options.output);
 }
 
-void check_cases(PlotArguments const& options, campaign::Plan const& plan) {
-    for (std::string const& id : options.cases) {
-        if (std::ranges::any_of(plan.cases, [&](auto const& planned) { return planned.id == id; })) continue;
-        throw core::InputError(fmt::format("--case: {} has no case {}; 'vibrotrough status {}' lists them",
-                                           options.folder, id, options.folder));
-    }
-}
-
 /// Widths of a column and of a page of Granular Matter and other journals of Springer, m.
 constexpr double one_column = 0.084, two_columns = 0.174;
 
@@ -144,7 +136,7 @@ int run_plot(PlotArguments const& options) {
     std::vector<std::string> const print = words_for_print(options);
     campaign::Plan const plan = open_for_figures(options.folder, options);
     std::vector<std::string> const columns = words_for_columns(options, plan);
-    check_cases(options, plan);
+    for (std::string const& id : options.cases) case_named(plan, id);
     fs::path const output = output_folder(options);
     core::make_folder(output);
     auto const cases = compare::write_report_data(plan, campaign::activity_in(plan.folder), output / "data");
@@ -184,6 +176,36 @@ std::shared_ptr<PlotArguments> add_common(CLI::App& command) {
     add_python(command, options->python);
     return options;
 }
+
+constexpr char const* plot_help = R"(Kinds of figures:
+  efficiency  velocity efficiency over throw number or swept key: DEM with error bars and models
+  speed       conveying speed over the same, beside the theory, the rolling-layer law and the atlas
+  mass_flow   mass flow likewise
+  residuals   DEM minus theory
+  budget      statistical and numerical error of the cases that 'vibrotrough convergence' studied
+  cycles      for each case: velocity efficiency of every cycle, with the discarded start-up shaded
+  portraits   for each case: layer and point mass in phase space
+  spin        for each case: spin and slip of the floor grains, and friction, over the cycle
+  profiles    for each case: velocity over height
+  partition   for each case with a screen: the share of each size that stays
+  segregation for each mixture: its segregation index over time, or along an open trough
+  along       for each open trough: depth and speed along it
+  residence   for each open trough: the distribution of the residence times
+  stages      for each case with stages: the speed over their cycles
+
+With --x and --y, one figure shows any column of 'vibrotrough compare' over any other, with its interval, and for
+speed, efficiency and mass flow what the theory and the rolling-layer law say of the same cases. A column is named as in
+'compare --csv', without its unit if you like, or as its key in the campaign file.
+
+Prints the path of every file that it wrote. Works while the campaign runs. With --width, letters shrink less than the
+figure, down to 7 points, and PNG has 300 dots per inch. A figure with panels beside one another needs 150 mm: in one column it is left out, and a line on standard error says so. PDF holds its fonts, as journals ask. The widths are those of Granular
+Matter (Springer); Elsevier's are 90 mm and 190 mm. A style sheet can name programs that matplotlib starts, such as LaTeX
+(text.usetex): use your own.
+
+Example:
+  vibrotrough plot runs/demo
+  vibrotrough plot runs/demo --format pdf --width one-column --only efficiency --output figures
+  vibrotrough plot runs/deep --with runs/shallow --x layer.height --y speed --unit m/min)";
 
 }  // namespace
 
@@ -229,35 +251,7 @@ void add_plot(CLI::App& program, int& exit_code) {
              "A style sheet of matplotlib, for fonts, sizes of letters, axes, ticks and resolution. "
              "Colours and marks that tell series apart stay",
              "FILE");
-    command->footer(R"(Kinds of figures:
-  efficiency  velocity efficiency over throw number or swept key: DEM with error bars and models
-  speed       conveying speed over the same, beside the theory, the rolling-layer law and the atlas
-  mass_flow   mass flow likewise
-  residuals   DEM minus theory
-  budget      statistical and numerical error of the cases that 'vibrotrough convergence' studied
-  cycles      for each case: velocity efficiency of every cycle, with the discarded start-up shaded
-  portraits   for each case: layer and point mass in phase space
-  spin        for each case: spin and slip of the floor grains, and friction, over the cycle
-  profiles    for each case: velocity over height
-  partition   for each case with a screen: the share of each size that stays
-  segregation for each mixture: its segregation index over time, or along an open trough
-  along       for each open trough: depth and speed along it
-  residence   for each open trough: the distribution of the residence times
-  stages      for each case with stages: the speed over their cycles
-
-With --x and --y, one figure shows any column of 'vibrotrough compare' over any other, with its interval, and for
-speed, efficiency and mass flow what the theory and the rolling-layer law say of the same cases. A column is named as in
-'compare --csv', without its unit if you like, or as its key in the campaign file.
-
-Prints the path of every file that it wrote. Works while the campaign runs. With --width, letters shrink less than the
-figure, down to 7 points, and PNG has 300 dots per inch. A figure with panels beside one another needs 150 mm: in one column it is left out, and a line on standard error says so. PDF holds its fonts, as journals ask. The widths are those of Granular
-Matter (Springer); Elsevier's are 90 mm and 190 mm. A style sheet can name programs that matplotlib starts, such as LaTeX
-(text.usetex): use your own.
-
-Example:
-  vibrotrough plot runs/demo
-  vibrotrough plot runs/demo --format pdf --width one-column --only efficiency --output figures
-  vibrotrough plot runs/deep --with runs/shallow --x layer.height --y speed --unit m/min)");
+    command->footer(plot_help);
     command->callback([options, &exit_code] { exit_code = run_plot(*options); });
 }
 

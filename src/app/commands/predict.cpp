@@ -6,6 +6,7 @@
 #include "learn/campaign_surface.hpp"
 #include "scenario/reader/swept_keys.hpp"
 
+#include <sstream>
 #include <tuple>
 
 namespace vibrotrough::app {
@@ -17,29 +18,12 @@ struct PredictArguments {
     bool json = false, csv = false, without_theory = false;
 };
 
-/// "a=1,b=2" by whole keys.
-std::map<std::string, scenario::Content> read_place(std::string const& text,
-                                                    scenario::CaseMaker const& maker) {
-    std::map<std::string, scenario::Content> values;
-    for (std::size_t from = 0; from <= text.size();) {
-        std::size_t const comma = std::min(text.find(',', from), text.size());
-        std::string const setting = text.substr(from, comma - from);
-        from = comma + 1;
-        auto const equal = setting.find('=');
-        if (equal == std::string::npos || equal == 0) {
-            throw core::InputError(
-                fmt::format("--at {}: '{}' is not KEY=VALUE; write for example --at {}=...", text, setting,
-                            maker.varied_keys().empty() ? "throw_number" : maker.varied_keys().front()));
-        }
-        try {
-            std::string const key = maker.full_key(setting.substr(0, equal));
-            if (!values.emplace(key, maker.read_value(key, setting.substr(equal + 1))).second)
-                throw core::InputError(fmt::format("{} is given twice; keep one", key));
-        } catch (core::InputError const& error) {
-            throw core::InputError(fmt::format("--at {}: {}", text, error.what()));
-        }
-    }
-    return values;
+/// The settings of "a=1,b=2".
+std::vector<std::string> settings_of(std::string const& text) {
+    std::vector<std::string> settings;
+    std::stringstream rest(text);
+    for (std::string setting; std::getline(rest, setting, ',');) settings.push_back(setting);
+    return settings;
 }
 
 /// The words among the values, which choose the cases of the surface.
@@ -122,7 +106,7 @@ class Predictor {
           with_trend_(!options.without_theory) {}
 
     Prediction at(std::string const& text) {
-        auto const values = read_place(text, maker_);
+        auto const values = read_place(settings_of(text), maker_);
         auto const& [points, trend, surface] = surface_of(words_among(values));
         atlas::Place const place = numbers_at(values, points.inputs, text);
         auto const prepared = prepare::prepare_case(trend.scenario_at(place));

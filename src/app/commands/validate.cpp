@@ -44,8 +44,8 @@ void add_validate(CLI::App& program, int& exit_code) {
   --points N  number of points along each axis of a map of the theory; default 300
   --store     keep tables, figures and verdicts in validation/ itself and write its page again
   --page      print the page of stored verdicts, and run nothing
-  --claims    compare the numbers in README files that come from stored tables with these tables, and
-              run nothing; with --store, write the numbers
+  --claims    compare the numbers in README files that come from stored tables with these tables,
+              and run nothing; with --store, write the numbers
   --verbose   show what the cases print instead of writing it to their logs
 
 A validation case passes when all its criteria are met. Each has a negative control: a deliberate
