@@ -85,12 +85,10 @@ learn::DesignModel DesignOptions::read_surface(learn::KnownFriction const& known
     GivenPlace const given = read_places(places, maker);
     learn::CampaignPoints points = learn::campaign_points(plan, maker, given.words);
     tell_of_other_layers(points.other_layers);
-    learn::KnownMaterial material{known, {{}, read_rolling_friction(), read_grain_friction()}};
-    if (grain_diameter)
-        material.grains.diameter = read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm");
     return learn::surface_design_model(std::make_shared<atlas::Surface const>(learn::surface_of(points)),
                                        learn::CampaignTrend(maker, points.inputs, given.words), given.numbers,
-                                       material, points.numerics, read_discrepancy().value_or(0));
+                                       {known, read_grains()}, points.numerics,
+                                       read_discrepancy().value_or(0));
 }
 
 void DesignOptions::add_to(CLI::App& command) {
@@ -225,10 +223,9 @@ std::optional<learn::Uncertain> DesignOptions::read_grain_friction() const {
 }
 
 learn::KnownGrains DesignOptions::read_grains() const {
-    if (!grain_diameter)
-        throw core::InputError("--model atlas needs the size of the grains; write --grain-diameter \"3 mm\"");
-    return {read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm"), read_rolling_friction(),
-            read_grain_friction()};
+    std::optional<double> diameter;
+    if (grain_diameter) diameter = read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm");
+    return {diameter, read_rolling_friction(), read_grain_friction()};
 }
 
 std::optional<double> DesignOptions::read_discrepancy() const {
@@ -279,6 +276,9 @@ std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction 
             all.push_back(learn::point_mass_design_model(missed));
         else if (name == "rolling-layer")
             all.push_back(learn::rolling_layer_design_model(read_rolling_friction(), missed, known.median));
+        else if (name == "atlas" && !grain_diameter)
+            throw core::InputError(
+                "--model atlas needs the size of the grains; write --grain-diameter \"3 mm\"");
         else if (name == "atlas")
             all.push_back(learn::atlas_design_model(read_grains(), missed.value_or(0), known.median));
         else
