@@ -22,7 +22,7 @@ double middle_of(Input input) {
     return inputs()[input].value_at(0.5);
 }
 
-double sd_of_unknown(std::span<Input const> unknown, std::optional<std::pair<Input, double>> const& fixed) {
+double sd_of_unknown(std::span<Input const> unknown) {
     constexpr int drives = 48, grains_each = 6;
     double squares = 0;
     int count = 0;
@@ -39,7 +39,6 @@ double sd_of_unknown(std::span<Input const> unknown, std::optional<std::pair<Inp
                     std::find(unknown.begin(), unknown.end(), static_cast<Input>(input)) != unknown.end();
                 place.push_back(inputs()[input].value_at((is_unknown ? other : drive)[input]));
             }
-            if (fixed) place[fixed->first] = fixed->second;
             if (auto const efficiency = efficiency_at(place)) found.push_back(*efficiency);
         }
         double mean = 0;

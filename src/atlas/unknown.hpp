@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace vibrotrough::atlas {
@@ -18,9 +17,7 @@ double middle_of(Input input);
 /// Standard deviation, in velocity efficiency, that inputs may cause which are not known: the root mean
 /// square over places of the whole atlas, at each of which they lie anywhere in their ranges while the others
 /// stay.
-/// @param fixed  an input that has this value at all places, instead of being unknown or varied
-double sd_of_unknown(std::span<Input const> unknown,
-                     std::optional<std::pair<Input, double>> const& fixed = {});
+double sd_of_unknown(std::span<Input const> unknown);
 
 /// The numbers of a layer in the order of inputs(), as far as they are known. Those of the motion, which are
 /// the first five, must be there.

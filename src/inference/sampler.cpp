@@ -58,7 +58,6 @@ class Walk {
             if (i % steps_per_archive_entry != 0) continue;
             for (Chain const& chain : chains_) archive_.push_back(chain.at);
         }
-        steps_ = accepted_ = 0;
     }
 
     /// Appends `draws` states to each list of `kept`.
@@ -70,8 +69,6 @@ class Walk {
             }
         }
     }
-
-    double acceptance() const { return static_cast<double>(accepted_) / static_cast<double>(steps_); }
 
   private:
     double density_at(Point const& point) const {
@@ -135,9 +132,7 @@ class Walk {
     void step(Chain& chain) {
         Point const next = proposal(chain);
         double const density = density_at(next);
-        ++steps_;
         if (!(std::log(uniform(chain.random)) < density - chain.density)) return;
-        ++accepted_;
         chain.at = next;
         chain.density = density;
     }
@@ -147,7 +142,6 @@ class Walk {
     std::vector<Chain> chains_;
     std::vector<Point> archive_;
     bool keeps_archive_ = false;
-    long steps_ = 0, accepted_ = 0;
 };
 
 void check(std::vector<Bounds> const& bounds, SamplerSettings const& s) {
@@ -192,7 +186,7 @@ Sample sample(LogDensity const& density, std::vector<Bounds> const& bounds, Samp
     check(bounds, settings);
     Walk walk(density, bounds, settings);
     walk.warm_up(settings.warm_up);
-    Sample result{settings.chains, 0, static_cast<int>(bounds.size()), {}, {}, {}, 0, false};
+    Sample result{settings.chains, 0, static_cast<int>(bounds.size()), {}, {}, {}, false};
     std::vector<std::vector<double>> kept(static_cast<std::size_t>(settings.chains));
     for (int more = settings.draws; !result.converged && more > 0;
          more = std::min(result.draws, settings.most_draws - result.draws)) {
@@ -202,7 +196,6 @@ Sample sample(LogDensity const& density, std::vector<Bounds> const& bounds, Samp
         for (auto const& chain : kept) result.values.insert(result.values.end(), chain.begin(), chain.end());
         judge(result, settings);
     }
-    result.acceptance = walk.acceptance();
     return result;
 }
 

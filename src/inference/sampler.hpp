@@ -43,7 +43,6 @@ struct Sample {
     std::vector<double> values;  ///< values[(chain * draws + draw) * parameters + parameter]
     std::vector<double> rhat;    ///< of each parameter, see rank_normalised_rhat()
     std::vector<double> ess;     ///< effective sample size of each parameter, the smaller of bulk and tails
-    double acceptance;           ///< fraction of the proposals that were accepted while drawing
     bool converged;              ///< whether every parameter has the R-hat and the sample size asked for
 
     /// One draw, parameter by parameter.

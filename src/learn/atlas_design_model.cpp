@@ -182,7 +182,7 @@ DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy, do
                                            range_of(one.input).high));
     }
     double const usual = friction > 0 ? friction : atlas::middle_of(atlas::friction_input);
-    double const diameter = grains.diameter;
+    double const diameter = grains.diameter.value();
     auto const [gentle, vigorous] = range_of(atlas::throw_number_input);
     auto const [small, large] = range_of(atlas::amplitude_input);
     auto const [thin, thick] = range_of(atlas::depth_input);

@@ -35,7 +35,7 @@ std::string list(std::vector<std::string> const& words) {
     return fmt::format("{} and {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
 }
 
-std::string first_sentence(Calibration const& c, ModelName const& model) {
+std::string first_sentence(Calibration const& c, std::string const& model) {
     std::vector<std::string> found, best, names;
     for (std::size_t p = 0; p < c.parameters.size(); ++p) {
         Estimate const& e = c.parameters[p];
@@ -49,17 +49,17 @@ std::string first_sentence(Calibration const& c, ModelName const& model) {
         return fmt::format(
             "There are as many free parameters as speeds or more, so {} cannot be tested: {} would explain "
             "{}.",
-            model.whole, list(found), these);
+            model, list(found), these);
     }
     if (c.best.p_value < contradicted_below) {
         return fmt::format(
             "No {}{} explains {} by {} within their uncertainties: the best fit, with {}, has chi-square "
             "{:.3g} with {} degrees of "
             "freedom (p = {:.1g}).",
-            names.size() > 1 ? "combination of " : "", list(names), these, model.whole, list(best),
+            names.size() > 1 ? "combination of " : "", list(names), these, model, list(best),
             c.best.chi_square, c.best.degrees_of_freedom, c.best.p_value);
     }
-    std::string whole = model.whole;
+    std::string whole = model;
     whole[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(whole[0])));
     return fmt::format("{} with {} explains {} (chi-square {:.3g} with {} degrees of freedom, p = {:.2g}).",
                        whole, list(found), these, c.best.chi_square, c.best.degrees_of_freedom,
@@ -119,7 +119,7 @@ std::string known_misses(Calibration const& c) {
 
 }  // namespace
 
-std::vector<std::string> verdict(Calibration const& c, ModelName const& model) {
+std::vector<std::string> verdict(Calibration const& c, std::string const& model) {
     std::vector<std::string> sentences{first_sentence(c, model)};
     if (c.discrepancy && c.best.degrees_of_freedom > 0 && c.best.p_value < contradicted_below) {
         std::vector<std::string> found;
@@ -152,7 +152,7 @@ std::vector<std::string> verdict(Calibration const& c, ModelName const& model) {
     return sentences;
 }
 
-std::string calibration_text(Calibration const& c, ModelName const& model) {
+std::string calibration_text(Calibration const& c, std::string const& model) {
     std::string text = fmt::format("{:<18} {:>9} {:>9} {:>9}  {:<7} {:>6} {:>6}  {:>8}\n", "parameter",
                                    "median", "2.5 %", "97.5 %", "unit", "R-hat", "ESS", "narrowed");
     for (Estimate const& e : c.parameters) text += parameter_row(e, note_of(e));
@@ -172,8 +172,8 @@ std::string calibration_text(Calibration const& c, ModelName const& model) {
     return text;
 }
 
-nlohmann::ordered_json calibration_json(Calibration const& c, ModelName const& model) {
-    Json json{{"model", model.whole}, {"parameters", Json::array()}};
+nlohmann::ordered_json calibration_json(Calibration const& c, std::string const& model) {
+    Json json{{"model", model}, {"parameters", Json::array()}};
     for (Estimate const& e : c.parameters) json["parameters"].push_back(as_json(e));
     json["model_discrepancy"] = c.discrepancy ? as_json(*c.discrepancy) : Json();
     json["measurements"] = Json::array();
@@ -198,7 +198,7 @@ nlohmann::ordered_json calibration_json(Calibration const& c, ModelName const& m
     return json;
 }
 
-nlohmann::ordered_json corner_plot_data(Calibration const& c, ModelName const& model) {
+nlohmann::ordered_json corner_plot_data(Calibration const& c, std::string const& model) {
     Json json = calibration_json(c, model);
     json["draws"] = Json::object();
     auto const add = [&](Estimate const& e) {

@@ -201,7 +201,7 @@ void check_material(char const* key, double simulated, double value, double slac
 
 constexpr double same_size = 0.01;  // of the diameter
 
-void check_grains(scenario::Grains const& simulated, GivenGrains const& given) {
+void check_grains(scenario::Grains const& simulated, KnownGrains const& given) {
     if (given.diameter)
         check_material("grains.diameter", simulated.diameter, *given.diameter, same_size * simulated.diameter,
                        1e3, " mm");

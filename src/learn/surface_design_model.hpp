@@ -1,5 +1,6 @@
 #pragma once
 
+#include "learn/atlas_design_model.hpp"
 #include "learn/campaign_surface.hpp"
 #include "learn/speed_model.hpp"
 
@@ -9,17 +10,10 @@
 
 namespace vibrotrough::learn {
 
-/// What is known of the grains of a design.
-struct GivenGrains {
-    std::optional<double> diameter = {};             ///< m
-    std::optional<Uncertain> rolling_friction = {};  ///< coefficient
-    std::optional<Uncertain> friction = {};          ///< of grain on grain
-};
-
 /// What is known of the material of a design.
 struct KnownMaterial {
     KnownFriction friction;   ///< on the trough
-    GivenGrains grains = {};  ///< of it
+    KnownGrains grains = {};  ///< of it
 };
 
 /// The surface of a simulated layer as a model by which a machine can be designed, with its own uncertainty.

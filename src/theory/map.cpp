@@ -37,15 +37,19 @@ ModeCode with_chains_joined(ModeCode code) {
     return joined;
 }
 
+Inputs at_place(Inputs inputs, Map const& map, double x, double y) {
+    inputs.set(map.x.input, x);
+    inputs.set(map.y.input, y);
+    return inputs;
+}
+
 /// A map under construction: its points, and how to solve one of them.
 class Grid {
   public:
     Grid(Inputs const& fixed, Map& map) : fixed_(fixed), map_(map) {}
 
     Efficiency solve(double x, double y, PointSolver& solver) const {
-        Inputs inputs = fixed_;
-        inputs.set(map_.x.input, x);
-        inputs.set(map_.y.input, y);
+        Inputs const inputs = at_place(fixed_, map_, x, y);
         Efficiency point = solver(inputs);
         if (inputs.get(Input::restitution).value_or(0) > 0) point.mode = with_chains_joined(point.mode);
         return point;
@@ -63,10 +67,7 @@ class Grid {
             double const x = map_.x.value(i), y = map_.y.value(j);
             at(i, j) = solve(x, y, solver);
             if (starts == 0) continue;
-            Inputs inputs = fixed_;
-            inputs.set(map_.x.input, x);
-            inputs.set(map_.y.input, y);
-            map_.motions[number(i, j)] = survey(inputs.conveyor(), at(i, j), starts);
+            map_.motions[number(i, j)] = survey(at_place(fixed_, map_, x, y).conveyor(), at(i, j), starts);
         }
     }
     struct Crossing {
@@ -198,12 +199,6 @@ namespace {
 
 constexpr Efficiency withheld{std::numeric_limits<double>::quiet_NaN(), 0, 0, Outcome::unsettled,
                               std::numeric_limits<double>::quiet_NaN()};
-
-Inputs at_place(Inputs inputs, Map const& map, double x, double y) {
-    inputs.set(map.x.input, x);
-    inputs.set(map.y.input, y);
-    return inputs;
-}
 
 }  // namespace
 

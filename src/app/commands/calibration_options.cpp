@@ -112,7 +112,7 @@ learn::CalibrationSettings CalibrationOptions::settings() const {
 }
 
 void print_calibration(CalibrationOptions const& options, learn::Calibration const& calibration,
-                       learn::ModelName const& model) {
+                       std::string const& model) {
     if (!options.plot.empty()) {
         core::TemporaryFolder const folder("vibrotrough-calibration");
         auto const data = folder.path() / "calibration.json";

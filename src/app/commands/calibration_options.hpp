@@ -46,6 +46,6 @@ std::pair<std::string, std::string> split_setting(std::string const& option, std
 /// Prints a calibration as the options ask, and draws its corner plot.
 /// @throws core::MissingError when the plot cannot be drawn
 void print_calibration(CalibrationOptions const& options, learn::Calibration const& calibration,
-                       learn::ModelName const& model);
+                       std::string const& model);
 
 }  // namespace vibrotrough::app

@@ -64,12 +64,9 @@ learn::DesignModel DesignOptions::read_surface(learn::KnownFriction const& known
     GivenPlace const given = read_places(places, maker);
     learn::CampaignPoints points = learn::campaign_points(plan, maker, given.words);
     tell_of_other_layers(points.other_layers);
-    learn::KnownMaterial material{
-        known, {{}, quantities.uncertain("--rolling-friction"), quantities.uncertain("--grain-friction")}};
-    if (auto const diameter = quantities.value("--grain-diameter")) material.grains.diameter = *diameter;
     return learn::surface_design_model(std::make_shared<atlas::Surface const>(learn::surface_of(points)),
                                        learn::CampaignTrend(maker, points.inputs, given.words), given.numbers,
-                                       material, points.numerics,
+                                       {known, read_grains()}, points.numerics,
                                        quantities.value("--model-discrepancy").value_or(0));
 }
 
@@ -185,10 +182,8 @@ learn::KnownFriction DesignOptions::read_friction(std::string& calibrated_model)
 }
 
 learn::KnownGrains DesignOptions::read_grains() const {
-    auto const diameter = quantities.value("--grain-diameter");
-    if (!diameter)
-        throw core::InputError("--model atlas needs the size of the grains; write --grain-diameter \"3 mm\"");
-    return {*diameter, quantities.uncertain("--rolling-friction"), quantities.uncertain("--grain-friction")};
+    return {quantities.value("--grain-diameter"), quantities.uncertain("--rolling-friction"),
+            quantities.uncertain("--grain-friction")};
 }
 
 bool DesignOptions::material_chooses_model() const {
@@ -235,6 +230,9 @@ std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction 
         else if (name == "rolling-layer")
             all.push_back(learn::rolling_layer_design_model(quantities.uncertain("--rolling-friction"),
                                                             missed, known.median));
+        else if (name == "atlas" && !quantities.value("--grain-diameter"))
+            throw core::InputError(
+                "--model atlas needs the size of the grains; write --grain-diameter \"3 mm\"");
         else if (name == "atlas")
             all.push_back(learn::atlas_design_model(read_grains(), missed.value_or(0), known.median));
         else
