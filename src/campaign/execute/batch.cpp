@@ -98,8 +98,7 @@ std::string job_script(Batch const& batch, JobScript const& job) {
         "trap : TERM INT USR1\n"
         "cd {folder} || exit 3\n"
         "index=${{SLURM_ARRAY_TASK_ID:?}}\n"
-        "mark() {{ rm -f \"{files}/.$1\" && ( set -C; printf '%s\\n' \"$2\" > \"{files}/.$1\" ) &&\n"
-        "    mv -fT \"{files}/.$1\" \"{files}/$1\"; }}\n"
+        "mark() {{ printf '%s\\n' \"$2\" > \"{files}/.$1\" && mv -f \"{files}/.$1\" \"{files}/$1\"; }}\n"
         "[ -f {files}/tasks.txt ] || {{ echo \"$PWD is not the campaign's folder\" >&2; exit 3; }}\n"
         "rm -f \"{files}/task-$index.ended\"\n"  // when it is queued again
         "mark \"task-$index.started\" \"$(uname -n) $SLURM_ARRAY_JOB_ID\"\n"

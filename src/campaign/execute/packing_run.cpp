@@ -61,8 +61,8 @@ void PackingRun::begin() {
     // From now on the packing is seen as under way.
     core::make_folder(folder_);
     settled_.obtain(deck_, planned_.prepared->settled_weight,
-                    [this, alive = std::weak_ptr<bool>(alive_)](Settled const& made) {
-                        if (!alive.expired()) start_on(made);
+                    [this, alive = std::weak_ptr<bool>(alive_)](PackingEnd const& end, auto const& restart) {
+                        if (!alive.expired()) start_on(end, restart);
                     });
 }
 
@@ -93,11 +93,10 @@ void PackingRun::resume(Checkpoint const& checkpoint) {
     sealed_cycle_ = checkpoint.cycle;
 }
 
-void PackingRun::start_on(Settled const& settled) {
+void PackingRun::start_on(PackingEnd const& settled, std::filesystem::path const& restart) {
     if (settled.failure || interrupted_) {
         // Posted, because the receiver may destroy this run.
-        PackingEnd const outcome =
-            interrupted_ ? interrupted_end() : PackingEnd{settled.failure, settled.message, settled.signal};
+        PackingEnd const outcome = interrupted_ ? interrupted_end() : settled;
         boost::asio::post(context_, [on_end = on_end_, alive = std::weak_ptr<bool>(alive_), outcome] {
             if (!alive.expired()) on_end(outcome);
         });
@@ -106,7 +105,7 @@ void PackingRun::start_on(Settled const& settled) {
     std::filesystem::remove_all(folder_);  // what an earlier run left behind
     deck::write_deck(deck_, folder_, engine_.ranks);
     // The packing's folder holds its settled packing, so that the deck can be run there by hand.
-    link_or_copy(settled.restart, folder_ / deck::settled_file);
+    link_or_copy(restart, folder_ / deck::settled_file);
     has_settled_ = true;
     start_engine({});
 }

@@ -15,13 +15,6 @@
 
 namespace vibrotrough::campaign {
 
-/// How a packing's run ended.
-struct PackingEnd {
-    std::optional<core::Outcome> failure;  ///< none when the packing is finished and marked so
-    std::string message;                   ///< of a failure
-    int signal = 0;                        ///< that killed the engine; 0 when none did
-};
-
 /// How a run is stopped before its end.
 enum class Stop {
     with_checkpoint,  ///< after the cycle that it is in, so that nothing of it is lost
@@ -69,7 +62,7 @@ class PackingRun {
 
   private:
     void begin();
-    void start_on(Settled const& settled);
+    void start_on(PackingEnd const& settled, std::filesystem::path const& restart);
     void continue_from(Checkpoint const& checkpoint);
     void resume(Checkpoint const& checkpoint);
     PackingEnd conclude(long last_step);

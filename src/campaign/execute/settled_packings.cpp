@@ -45,7 +45,7 @@ bool is_whole(fs::path const& folder, deck::Deck const& deck) {
     }
 }
 
-Settled judge(fs::path const& folder, engine::ExitStatus status, double weight) {
+PackingEnd judge(fs::path const& folder, engine::ExitStatus status, double weight) {
     engine::RunReport const report = engine::examine_run(folder, status, engine::Stage::settling);
     if (report.failure) return {report.failure, report.message, report.signal};
     if (!fs::is_regular_file(folder / deck::settled_file)) {
@@ -62,7 +62,7 @@ Settled judge(fs::path const& folder, engine::ExitStatus status, double weight) 
         {"weight_N", weight},
         {"restart_sha256", core::sha256_hex(core::read_file(folder / deck::settled_file))}};
     core::write_file_atomically(folder / seal_file, seal.dump(2) + "\n");
-    return {{}, {}, 0, folder / deck::settled_file};
+    return {};
 }
 
 /// Puts the finished folder in its place, unless another driver was faster. What lies there and is whole is
@@ -114,7 +114,7 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
     }
     if (fs::path const place = folder_ / key; is_whole(place, deck)) {
         boost::asio::post(context_, [ready = std::move(ready), restart = place / deck::settled_file] {
-            ready({{}, {}, 0, restart});
+            ready({}, restart);
         });
         return;
     }
@@ -172,27 +172,26 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
     std::shared_ptr<Settling> const settling = std::move(settling_.at(key));
     settling_.erase(key);
     boost::asio::post(context_, [settling] {});  // the process is in the middle of its own call
-    Settled settled{core::Outcome::interrupted, "the settling was interrupted"};
+    PackingEnd end{core::Outcome::interrupted, "the settling was interrupted"};
     if (!settling->interrupted) require_unchanged(engine_);
     try {
-        if (!settling->interrupted) settled = judge(settling->folder, status, settling->weight);
+        if (!settling->interrupted) end = judge(settling->folder, status, settling->weight);
     } catch (core::DiskFullError const& error) {
-        settled = {core::Outcome::disk_full, error.what()};
+        end = {core::Outcome::disk_full, error.what()};
     }
-    if (!settled.failure) {
+    if (!end.failure) {
         publish(settling->folder, folder_ / key, settling->deck);
-        settled.restart = folder_ / key / deck::settled_file;
-    } else if (settling->interrupted || settled.failure == core::Outcome::disk_full) {
+    } else if (settling->interrupted || end.failure == core::Outcome::disk_full) {
         fs::remove_all(settling->folder);
     } else {
         // Kept for whoever wants to see why, in place of an earlier failure.
         fs::path const kept = folder_ / (key + ".failed");
         fs::remove_all(kept);
         fs::rename(settling->folder, kept);
-        settled.message += fmt::format(" (see {})", (kept / engine::output_file).string());
+        end.message += fmt::format(" (see {})", (kept / engine::output_file).string());
     }
     fs::remove(lock_of(settling->folder));
-    for (Ready const& ready : settling->waiting) ready(settled);
+    for (Ready const& ready : settling->waiting) ready(end, folder_ / key / deck::settled_file);
 }
 
 }  // namespace vibrotrough::campaign

@@ -14,12 +14,11 @@
 
 namespace vibrotrough::campaign {
 
-/// How the settling of a packing ended.
-struct Settled {
-    std::optional<core::Outcome> failure;  ///< none when the packing is settled
+/// How a packing's run ended.
+struct PackingEnd {
+    std::optional<core::Outcome> failure;  ///< none when the packing is finished and marked so, or settled
     std::string message;                   ///< of a failure
     int signal = 0;                        ///< that killed the engine; 0 when none did
-    std::filesystem::path restart = {};    ///< the settled packing
 };
 
 /// The campaign's settled packings, each made once and used by all cases that share grains, layer and trough:
@@ -32,8 +31,8 @@ class SettledPackings {
                     std::filesystem::path const& campaign_folder);
     ~SettledPackings();
 
-    /// Receives the settled packing, or why there is none.
-    using Ready = std::function<void(Settled const&)>;
+    /// Receives how the settling ended, and if it did well the file with the settled packing.
+    using Ready = std::function<void(PackingEnd const& end, std::filesystem::path const& restart)>;
 
     /// Calls `ready` once, from the context, when the packing is there: soon if it was made before, whole and
     /// undamaged, else after the engine has settled it. Asked twice for one packing, the engine runs once.

@@ -119,15 +119,12 @@ void write_scenario(scenario::Scenario const& scenario, fs::path const& folder) 
     core::replace_file(folder / "scenario.toml", to_toml(scenario));
 }
 
-void write_case_files(PlannedCase const& planned) {
-    write_scenario(planned.scenario(), planned.folder);
-}
-
 void write_case_files(std::vector<PlannedCase const*> cases) {
     std::ranges::sort(cases);
     cases.erase(std::unique(cases.begin(), cases.end()), cases.end());
-    core::for_each_index(cases.size(), cases_per_thread,
-                         [&] { return [&](std::size_t i) { write_case_files(*cases[i]); }; });
+    core::for_each_index(cases.size(), cases_per_thread, [&] {
+        return [&](std::size_t i) { write_scenario(cases[i]->scenario(), cases[i]->folder); };
+    });
 }
 
 void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine const& engine) {

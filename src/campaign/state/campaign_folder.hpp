@@ -16,11 +16,6 @@ void write_named_files(scenario::Scenario const& scenario, std::filesystem::path
 /// @throws core::MissingError when the disk refuses
 void write_scenario(scenario::Scenario const& scenario, std::filesystem::path const& folder);
 
-/// Writes what a case's folder holds before its first packing is run: the frozen scenario, and for a case
-/// that an older version of the program began, under which id it is known today.
-/// @throws core::MissingError when the disk refuses
-void write_case_files(PlannedCase const& planned);
-
 /// Makes the campaign's folder and freezes the campaign in it: campaign.toml, the engine's version
 /// (engine.json) and its certificate (certificate.json).
 /// @param campaign_file  that the plan was made from
@@ -32,7 +27,8 @@ void freeze(Plan const& plan, std::filesystem::path const& campaign_file, engine
 /// @throws core::InputError when it is not a campaign folder or is damaged
 Plan open_plan(std::filesystem::path const& folder);
 
-/// write_case_files() of all cases, several at the same time where the file system is slow.
+/// Writes what the folders of cases hold before their first packing is run, the frozen scenario: several at
+/// the same time, because the file system may be slow. @throws core::MissingError when the disk refuses
 void write_case_files(std::vector<PlannedCase const*> cases);
 
 /// The campaign file that is frozen in a folder. @throws core::InputError as open_plan

@@ -102,9 +102,14 @@ Json read_list(fs::path const& campaign_folder) {
 class CaseSpace {
   public:
     explicit CaseSpace(Plan const& plan) {
-        for (PlannedCase const& one : plan.cases) keys_.push_back(keys_of(one.scenario()));
-        for (auto const& keys : keys_) {
-            for (auto const& [name, value] : keys) add(name, value);
+        for (PlannedCase const& one : plan.cases) {
+            keys_.push_back(keys_of(one.scenario()));
+            for (auto const& [name, value] : keys_.back()) {
+                auto const* const number = std::get_if<double>(&value);
+                auto& [least, most] = ranges_[name];
+                least = std::min(least, number != nullptr ? *number : least);
+                most = std::max(most, number != nullptr ? *number : most);
+            }
         }
     }
 
@@ -112,12 +117,9 @@ class CaseSpace {
         double squares = 0;
         for (auto const& [name, range] : ranges_) {
             auto const one = keys_[a].find(name), other = keys_[b].find(name);
-            if (one == keys_[a].end() && other == keys_[b].end()) continue;
-            if (one == keys_[a].end() || other == keys_[b].end()) {
-                squares += 1;
-                continue;
-            }
-            squares += std::pow(difference(one->second, other->second, range), 2);
+            bool const has_one = one != keys_[a].end(), has_other = other != keys_[b].end();
+            if (has_one && has_other) squares += std::pow(difference(one->second, other->second, range), 2);
+            if (has_one != has_other) squares += 1;
         }
         return std::sqrt(squares);
     }
@@ -126,14 +128,6 @@ class CaseSpace {
     struct Range {
         double least = std::numeric_limits<double>::infinity(), most = -least;
     };
-
-    void add(std::string_view name, scenario::Content const& value) {
-        Range& range = ranges_[name];
-        if (auto const* const number = std::get_if<double>(&value)) {
-            range.least = std::min(range.least, *number);
-            range.most = std::max(range.most, *number);
-        }
-    }
 
     static double difference(scenario::Content const& one, scenario::Content const& other,
                              Range const& range) {
@@ -147,6 +141,11 @@ class CaseSpace {
     std::map<std::string_view, Range> ranges_;
 };
 
+/// The scenario as it comes back from the study's campaign file, where the number of grains may be rounded.
+scenario::Scenario as_read_back(scenario::Scenario const& scenario) {
+    return scenario::parse_campaign(to_toml(scenario), "study", {{}, named_files(scenario)}).cases.front();
+}
+
 }  // namespace
 
 std::vector<scenario::Scenario> NumericsStudy::scenarios() const {
@@ -156,15 +155,6 @@ std::vector<scenario::Scenario> NumericsStudy::scenarios() const {
     }
     return all;
 }
-
-namespace {
-
-/// The scenario as it comes back from the study's campaign file, where the number of grains may be rounded.
-scenario::Scenario as_read_back(scenario::Scenario const& scenario) {
-    return scenario::parse_campaign(to_toml(scenario), "study", {{}, named_files(scenario)}).cases.front();
-}
-
-}  // namespace
 
 NumericsStudy plan_study(PlannedCase const& planned, std::optional<double> half_width) {
     scenario::Scenario scenario = planned.scenario();
