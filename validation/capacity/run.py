@@ -88,7 +88,7 @@ def simulate(run: ValidationCase) -> None:
     boxes = []
     for name, depth in (("low", low.depth), ("high", high.depth), ("predicted", low.depth_at(HIGH))):
         (row,) = run.campaign(f"box-{name}", BOX | {"layer.height": f"{depth:.3f} mm"}, {})
-        boxes.append([name, f"{depth:.3f}", *(f"{float(row[column]):.4f}" for column in ("efficiency", "efficiency_half_width", "mass_flow_t_per_h")), row["outcome"]])
+        boxes.append([name, f"{depth:.3f}", *(f"{float(row[column]):.4f}" for column in ("efficiency", "efficiency_half_width_statistics", "mass_flow_t_per_h")), row["outcome"]])
     run.write_table("boxes.csv", BOXES, boxes)
 
 

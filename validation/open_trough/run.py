@@ -48,13 +48,13 @@ def simulate_vee(run: ValidationCase) -> None:
         tables = [table[()] for table in file["along"].values()]
     level = float(np.mean([table["level"][(table["x"] > WINDOW[0]) & (table["x"] < WINDOW[1])] for table in tables]))
     (box,) = run.campaign("periodic-vee", {**PERIODIC, **vee(run, "periodic-vee", 40), "layer.height": f"{1e3 * level:.3f} mm"}, {})
-    numbers = [[f"{float(one[name]):.4f}" for name in ("efficiency", "efficiency_whole_half_width")] for one in (row, box)]
+    numbers = [[f"{float(one[name]):.4f}" for name in ("efficiency", "efficiency_half_width")] for one in (row, box)]
     run.write_table("vee.csv", VEE, [[*numbers[0], f"{1e3 * level:.3f}", row["outcome"], *numbers[1], box["outcome"]]])
 
 
 def simulate_deeper(run: ValidationCase) -> None:
     rows = run.campaign("deeper", DEEPER, DEEPER_AT)
-    numbers = ["efficiency", "efficiency_whole_half_width", "window_depth_mm"]
+    numbers = ["efficiency", "efficiency_half_width", "window_depth_mm"]
     run.write_table("deeper.csv", DEEPER_COLUMNS, [[row["throw_number"], *(f"{float(row[name]):.4f}" for name in numbers), row["outcome"]] for row in rows])
 
 
@@ -77,7 +77,7 @@ def simulate(run: ValidationCase) -> None:
         throw_number = float(row["throw_number"])
         changes = {**PERIODIC, "trough.throw_number": throw_number, "layer.height": f"{float(row['window_depth_mm']):.3f} mm"}
         (box,) = run.campaign(f"periodic-{throw_number}", changes, {})
-        numbers = ["efficiency", "efficiency_whole_half_width", "window_depth_mm", "inflow_t_per_h", "outflow_t_per_h", "mass_flow_t_per_h", "residence_time_s", "residence_spread_s", "peclet"]
+        numbers = ["efficiency", "efficiency_half_width", "window_depth_mm", "inflow_t_per_h", "outflow_t_per_h", "mass_flow_t_per_h", "residence_time_s", "residence_spread_s", "peclet"]
         rows.append([row["throw_number"], *(f"{float(row[name]):.4f}" for name in numbers), row["outcome"],
                      *(f"{float(box[name]):.4f}" for name in numbers[:2]), box["outcome"]])  # fmt: skip
     run.write_table("result.csv", COLUMNS, rows)

@@ -47,7 +47,7 @@ def balances(name: str, path: pathlib.Path) -> list[list[object]]:
 
 def flow_row(name: str, feed: float, row: dict[str, str]) -> list[object]:
     columns = ["screening_efficiency", "screening_efficiency_half_width", "underflow_t_per_h", "outflow_t_per_h", "window_depth_mm", "window_depth_half_width_mm",
-               "efficiency", "efficiency_half_width", "outflow_half_width_t_per_h"]  # fmt: skip
+               "efficiency", "efficiency_half_width_statistics", "outflow_half_width_t_per_h"]  # fmt: skip
     return [name, feed, row["outcome"], *(row.get(column, "") for column in columns)]
 
 

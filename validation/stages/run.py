@@ -83,7 +83,7 @@ def speeds_in_ramps(run: ValidationCase) -> list[list[object]]:
 def simulate_take_off(run: ValidationCase) -> None:
     """In a ramp that is linear in time the throw number is linear in the cycles: f^2 = f_0^2 + n (f_1^2 - f_0^2) / N."""
     steady = run.campaign("take-off", {}, {"trough.frequency": [f"{hertz(float(number)):.5f} Hz" for number in THROW_NUMBERS]})
-    rows: list[list[object]] = [["steady", number, row["efficiency"], row["efficiency_half_width"]] for number, row in zip(THROW_NUMBERS, steady, strict=True)]
+    rows: list[list[object]] = [["steady", number, row["efficiency"], row["efficiency_half_width_statistics"]] for number, row in zip(THROW_NUMBERS, steady, strict=True)]
     slow, fast = (f"{hertz(number):.5f} Hz" for number in (SLOW, FAST))
     sweep = {"measure.packings": 4, "stages.1.cycles": BEFORE, "stages.1.frequency": slow}
     for stage, frequency in ((2, fast), (3, slow)):
@@ -101,7 +101,7 @@ def simulate_take_off(run: ValidationCase) -> None:
 
 def simulate(run: ValidationCase) -> None:
     steady = run.campaign("steady", {}, {"trough.amplitude": [f"{amplitude} mm" for amplitude in AMPLITUDES]})
-    rows: list[list[object]] = [["steady", amplitude, row["efficiency"], row["efficiency_half_width"]] for amplitude, row in zip(AMPLITUDES, steady, strict=True)]
+    rows: list[list[object]] = [["steady", amplitude, row["efficiency"], row["efficiency_half_width_statistics"]] for amplitude, row in zip(AMPLITUDES, steady, strict=True)]
     run.campaign("single", ONE_PACKING, {})
     run.campaign("single-stage", {**ONE_PACKING, "measure.max_packings": None, "measure.max_cycles": None, "stages.1.cycles": 24}, {})
     run.campaign("one-stage", ONE_STAGE, {})

@@ -42,7 +42,7 @@ Json number(std::optional<double> const& value) {
 Json describe(evaluate::StudyResult const& result) {
     return {{"case", result.case_id},
             {"efficiency", number(result.mean)},
-            {"efficiency_half_width", number(result.half_width)},
+            {"efficiency_half_width_statistics", number(result.half_width)},
             {"message", result.message}};
 }
 
