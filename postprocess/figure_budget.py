@@ -68,7 +68,7 @@ def plot_budget(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
     figure, axes = new_figure(size=(max(5.0, 1.6 + 1.1 * len(budgets)), 4.4))
     plain_axes(axes)
     for place, budget in enumerate(budgets):
-        statistical = source.row_of(budget["case"])["efficiency_half_width"]
+        statistical = source.row_of(budget["case"])["efficiency_half_width_statistics"]
         if statistical is not None:
             axes.bar(place - BAR / 2, statistical, BAR, color="#bbbbbb", edgecolor=GREY, linewidth=0.8)
             axes.annotate(f"{statistical:.3f}", (place - BAR / 2, statistical), ha="center", va="bottom", fontsize=points(7))

@@ -26,7 +26,6 @@ MODELS = {
 }
 # Quantities that are an efficiency times a number that is known of each case.
 OF_EFFICIENCY = ("efficiency", "conveying_speed", "mass_flow", "mass_flow_per_width")
-WHOLE = {"efficiency": "efficiency_whole_half_width"}
 MOST_SERIES = 24
 
 
@@ -118,7 +117,7 @@ def read_table(output: pathlib.Path) -> Table:
 
 def half_width_name(column: Mapping[str, Any]) -> str:
     """The column with half the interval of a number, as far as the table has one."""
-    return WHOLE.get(str(column["name"]), f"{base_name(column)}_half_width{suffix_of(column)}")
+    return f"{base_name(column)}_half_width{suffix_of(column)}"
 
 
 def half_width(y: Shown, row: Row) -> float:

@@ -51,7 +51,7 @@ def show_cycles(axes: Axes, result: vibrotrough.File, shown: int) -> None:
 def draw_packing(axes: Axes, result: vibrotrough.File, number: int, row: Mapping[str, Any]) -> None:
     efficiency = np.asarray(result[f"series/{number + 1}/efficiency"])
     discarded = int(result["packings/cycles_discarded"][number])
-    mean, half_width = result["packings/efficiency"][number], result["packings/efficiency_half_width"][number]
+    mean, half_width = result["packings/efficiency"][number], result["packings/efficiency_half_width_statistics"][number]
     cycles = np.arange(1, len(efficiency) + 1)
     plain_axes(axes)
     if discarded:

@@ -49,7 +49,7 @@ def draw_line(source: "Source", over: Input, values: Floats) -> Figure:
     figure, axes = new_figure(size=(7.2, 3.6))
     plain_axes(axes)
     axes.axhline(0.0, color="#888888", linewidth=1.0)
-    half_width = np.asarray(vibrotrough.whole_half_widths(source.campaign), dtype=float)
+    half_width = np.asarray(source.campaign["efficiency_half_width"], dtype=float)
     axes.errorbar(over.places()[0], values, yerr=half_width, color=COLOURS[0], marker=MARKERS[0], linestyle="none", capsize=3)
     bounded = np.where(np.isfinite(half_width), half_width, 0.0)
     reach = 1.15 * np.nanmax(np.append(np.abs(values) + bounded, 0.05))

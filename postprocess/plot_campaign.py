@@ -204,7 +204,7 @@ def draw(axes: Axes, series: Series, rows: list[int]) -> None:
         members = sorted((row for row in rows if (series.colours[row], series.markers[row]) == (colour, marker)),
                          key=lambda row: places[row])
         shade = COLOURS[colour % len(COLOURS)]
-        axes.errorbar(places[members], columns["efficiency"][members], yerr=vibrotrough.whole_half_widths(columns)[members], color=shade,
+        axes.errorbar(places[members], columns["efficiency"][members], yerr=columns["efficiency_half_width"][members], color=shade,
                       marker=MARKERS[(colour + marker) % len(MARKERS)], markerfacecolor=shade if marker == 0 else "white",
                       linestyle="none", capsize=3, label=series.name(members[0]))
     if names:

@@ -135,15 +135,14 @@ WHAT_A_MACHINE_DOES = ("conveying_speed_m_per_s", "mass_flow_t_per_h", "mass_flo
 
 
 # What only some readers look for: shown at the push of a button, so that the rest fits on a screen.
-MINOR = ("efficiency_half_width", "efficiency_numerical_error", "numerical_error_case", "larger_error", "mass_flow_per_width_t_per_h_m",
+MINOR = ("efficiency_half_width_statistics", "efficiency_numerics", "numerical_error_case", "larger_error", "mass_flow_per_width_t_per_h_m",
          "power_per_area_w_per_m2", "added_mass_fraction", "damping_per_area_n_s_per_m3", "cycles_discarded", "wall_time_s")
-
-BEHIND_THE_MODES = 155  # position of a column
-
 
 def report_columns(overview: dict[str, Any]) -> list[Column]:
     """The columns that the report shows, from left to right, as campaign.json describes them."""
-    shown = [dict(column, **column["report"]) for column in overview["columns"] if column["report"]]
+    columns = overview["columns"]
+    shown = [dict(column, **column["report"], position=position) for position, column in enumerate(columns) if column["report"]]
+    behind_the_modes = next((position + 0.5 for position, column in enumerate(columns) if column["name"] == "layer_mode"), len(columns))
     for column in shown:
         column["error"] = half_width_name(column)
         column["heading"] = plain(column["heading"])
@@ -152,7 +151,7 @@ def report_columns(overview: dict[str, Any]) -> list[Column]:
     minor = {*MINOR} - ({"mass_flow_per_width_t_per_h_m"} if all(row.get("mass_flow_t_per_h") is None for row in overview["cases"]) else set())
     for column in shown:
         if column["name"] == "outcome":
-            column["position"] = BEHIND_THE_MODES  # own observables may be many, and this is looked for
+            column["position"] = behind_the_modes  # own observables may be many, and this is looked for
         column["minor"] = column["name"] in minor
     # An interval stands in the cell of its number.
     shown = [column for column in shown if column["name"] not in errors]

@@ -27,7 +27,7 @@ def known(case: Case, *names: str) -> bool:
 
 
 def half_width(case: Case) -> float:
-    return float(case.get("efficiency_whole_half_width") or 0.0)
+    return float(case.get("efficiency_half_width") or 0.0)
 
 
 def difference(case: Case) -> float:

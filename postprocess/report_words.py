@@ -71,7 +71,7 @@ def theory(cases: list[Case]) -> str:
     def difference(case: Case) -> float:
         return float(case["efficiency"] - case["efficiency_theory"])
 
-    agree = sum(abs(difference(case)) <= (case.get("efficiency_whole_half_width") or 0.0) for case in known)
+    agree = sum(abs(difference(case)) <= (case.get("efficiency_half_width") or 0.0) for case in known)
     worst = max(known, key=lambda case: abs(difference(case)))
     side = "faster" if difference(worst) > 0 else "slower"
     first = (f"The point-mass theory agrees with the layer to within the interval in {agree} of {len(known)} cases."
@@ -90,7 +90,7 @@ def atlas(cases: list[Case]) -> str:
         return ""
 
     def excess(case: Case) -> float:
-        widths = (case.get("efficiency_whole_half_width") or 0.0) + case["efficiency_atlas_half_width"]
+        widths = (case.get("efficiency_half_width") or 0.0) + case["efficiency_atlas_half_width"]
         return float(abs(case["efficiency"] - case["efficiency_atlas"]) - widths)
 
     agree = sum(excess(case) <= 0 for case in known)

@@ -15,7 +15,7 @@
     vibrotrough.theory.solve(rpm=960, stroke_mm=9.7, vibration_angle_deg=30, friction=0.3)      # see help(vibrotrough.theory)
 
 Everything is read at once, so files may be renewed meanwhile. A damaged file is refused with ValueError. `vibrotrough quantities` prints
-all names. A file of version 0.2.0 is read under today's names, and the names of that version are still understood.
+all names. Names of older versions are still understood.
 Needs h5py and numpy, and to_dataframe() pandas; the theory needs its compiled part (pip install --no-build-isolation ./postprocess).
 """
 
@@ -88,15 +88,19 @@ def _read_fields(table: h5py.Dataset) -> Iterator[tuple[str, Array]]:
         yield name, Array(np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values, text(units), text(description))
 
 
-# Names of version 0.2.0 that were replaced, as `vibrotrough quantities --json` prints them. A value is found under both, and listed under
+# Names that were replaced, as `vibrotrough quantities --json` prints them. A value is found under both, and listed under
 # today's.
 OLD_NAMES = {
     "speed": "conveying_speed",
     "speed_half_width": "conveying_speed_half_width",
     "efficiency_dem": "efficiency",
-    "efficiency_dem_half_width": "efficiency_half_width",
-    "efficiency_dem_whole_half_width": "efficiency_whole_half_width",
-    "efficiency_dem_numerical_error": "efficiency_numerical_error",
+    "efficiency_dem_half_width": "efficiency_half_width_statistics",
+    "efficiency_dem_whole_half_width": "efficiency_half_width",
+    "efficiency_whole_half_width": "efficiency_half_width",
+    "efficiency_dem_numerical_error": "efficiency_numerics",
+    "efficiency_numerical_error": "efficiency_numerics",
+    "efficiency_below_half_width": "efficiency_below_half_width_statistics",
+    "efficiency_above_half_width": "efficiency_above_half_width_statistics",
     "speed_dem_m_per_s": "conveying_speed_m_per_s",
     "speed_dem_half_width_m_per_s": "conveying_speed_half_width_m_per_s",
     "mode_layer": "layer_mode",
@@ -145,6 +149,8 @@ class File:
                 found = self.attributes.get("format")
                 if found not in wanted_formats:
                     raise ValueError(f"{self.path} holds a '{found}', not a '{wanted_formats[-1]}'")
+                if "theory" not in str(found) and int(self.attributes["schema_version"]) < 3:
+                    raise ValueError(f"{self.path} was written by an older version of Vibrotrough; 'vibrotrough run' writes it again")
                 file.visititems(lambda name, item: self._keep(name, item))
         except (OSError, RuntimeError, KeyError) as error:  # h5py says by all three that a checksum is wrong
             raise ValueError(f"{self.path} is damaged ({error}); delete it, and let vibrotrough make it again") from error
@@ -227,10 +233,3 @@ def open_result(path: str | os.PathLike[str]) -> File:
 def open_theory(path: str | os.PathLike[str]) -> File:
     """A map of `vibrotrough theory map` or a table of `vibrotrough theory batch --output FILE.h5`."""
     return File(path, "vibrotrough theory map", "vibrotrough theory table")
-
-
-def whole_half_widths(campaign: Any) -> Any:
-    """Half-widths of the efficiencies of a campaign's cases, for statistics and numerics together. Files of version 0.2.0 and before
-    have only those of the statistics."""
-    whole = "efficiency_whole_half_width"
-    return campaign[whole if whole in campaign else "efficiency_half_width"]

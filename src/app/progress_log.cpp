@@ -35,12 +35,13 @@ Json as_json(campaign::RunningPacking const& one) {
               {"cycles", one.cycles},
               {"cycles_wanted", one.cycles_wanted},
               {"efficiency", nullptr},
-              {"efficiency_half_width", nullptr},
+              {"efficiency_half_width_statistics", nullptr},
               {"elapsed_s", one.elapsed},
               {"time_to_go_s", known(one.time_to_go)}};
     if (one.estimate && std::isfinite(one.estimate->mean)) {
         json["efficiency"] = one.estimate->mean;
-        if (std::isfinite(one.estimate->half_width)) json["efficiency_half_width"] = one.estimate->half_width;
+        if (std::isfinite(one.estimate->half_width))
+            json["efficiency_half_width_statistics"] = one.estimate->half_width;
     }
     return json;
 }

@@ -22,7 +22,7 @@ std::optional<double> difference(Row const& row) {
 }
 
 std::string efficiency_cell(Row const& row) {
-    auto const efficiency = row.number("efficiency"), width = row.number("efficiency_whole_half_width");
+    auto const efficiency = row.number("efficiency"), width = row.number("efficiency_half_width");
     return core::three_digits(efficiency) + (efficiency && width ? " +- " + core::three_digits(width) : "");
 }
 
@@ -62,7 +62,7 @@ void set_cells(std::vector<Column>& columns) {
 /// is slower, bold from 0.1 on; none within the confidence interval.
 std::string difference_colour(Row const& row) {
     auto const value = difference(row);
-    if (!value || std::abs(*value) <= row.number("efficiency_whole_half_width").value_or(0.0)) return {};
+    if (!value || std::abs(*value) <= row.number("efficiency_half_width").value_or(0.0)) return {};
     return fmt::format("\x1b[{}{}m", std::abs(*value) >= 0.1 ? "1;" : "", *value > 0 ? 33 : 36);
 }
 
@@ -75,13 +75,18 @@ std::string outcome_colour(Row const& row) {
 
 std::vector<Column> theory_columns() {
     return {
+        {.name = "larger_error",
+         .unit = "1",
+         .value = larger_error,
+         .meaning = "Which error of efficiency is larger: statistical (efficiency_half_width_statistics) or "
+                    "numerical",
+         .report = ReportView{.heading = "larger error"}},
         {.name = "efficiency_theory",
          .unit = "1",
          .value = field<&Row::efficiency_theory>,
          .meaning = "Velocity efficiency of the plastic point mass at the friction of a grain on the trough; "
                     "unknown when it has no mean speed",
          .format = "{:.3f}",
-         .position = 90,
          .terminal = TerminalView{.heading = "eta theory", .subheading = "at mu", .priority = 7},
          .report = ReportView{.heading = "\u03b7, theory"}},
         {.name = "efficiency_rolling_layer",
@@ -92,38 +97,36 @@ std::vector<Column> theory_columns() {
              "that may rotate; unknown outside the throw numbers, slopes, frictions and depths at which "
              "the law has been tested",
          .format = "{:.3f}",
-         .position = 95,
          .terminal =
              TerminalView{
                  .heading = "eta rolling", .subheading = "layer law", .priority = 2, .only_when_known = true},
          .report = ReportView{.heading = "\u03b7, rolling layer"}},
-        {.name = "mode_theory",
+        {.name = "efficiency_atlas",
          .unit = "1",
-         .value = field<&Row::mode_theory>,
-         .meaning = "Mode of that point mass: the phases of a period in order, P positive slide, N negative "
-                    "slide, R rest, F flight; a prime marks the slide right after a landing",
-         .position = 140,
-         .terminal = TerminalView{.heading = "mode", .subheading = "theory", .priority = 5},
-         .report = ReportView{.heading = "mode, theory"}},
-        {.name = "layer_mode",
-         .unit = "1",
-         .value = field<&Row::layer_mode>,
-         .meaning = "Mode of the simulated layer as a whole, in the same letters",
-         .position = 150,
+         .value = field<&Row::efficiency_atlas>,
+         .meaning = "Velocity efficiency from the atlas, a surface over simulated layers of spheres; unknown "
+                    "for layers outside of it",
+         .format = "{:.3f}",
          .terminal =
-             TerminalView{.heading = "mode", .subheading = "layer", .priority = 5, .only_when_known = true},
-         .report = ReportView{.heading = "mode, layer"}},
+             TerminalView{
+                 .heading = "eta atlas", .subheading = "95 %", .priority = 3, .only_when_known = true},
+         .report = ReportView{.heading = "\u03b7, atlas"},
+         .cell = atlas_cell},
+        {.name = "efficiency_atlas_half_width",
+         .unit = "1",
+         .value = field<&Row::efficiency_atlas_half_width>,
+         .meaning = "Half-width of the 95 % interval of efficiency_atlas"},
     };
 }
 
-std::vector<Column> friction_columns() {
+/// The layer beside the theory.
+std::vector<Column> layer_columns() {
     return {
         {.name = "friction_layer",
          .unit = "1",
          .value = field<&Row::friction_layer>,
          .meaning = "Friction coefficient of the layer as a whole, from 'vibrotrough friction-test'",
          .format = "{:.3f}",
-         .position = 110,
          .terminal = TerminalView{.heading = "mu layer", .priority = 4, .only_when_known = true},
          .report = ReportView{.heading = "\u03bc, layer"}},
         {.name = "friction_layer_low",
@@ -139,7 +142,6 @@ std::vector<Column> friction_columns() {
          .value = field<&Row::efficiency_theory_layer>,
          .meaning = "Velocity efficiency of the plastic point mass at friction_layer",
          .format = "{:.3f}",
-         .position = 120,
          .terminal = TerminalView{.heading = "eta theory",
                                   .subheading = "at mu layer",
                                   .priority = 6,
@@ -149,6 +151,29 @@ std::vector<Column> friction_columns() {
          .unit = "1",
          .value = field<&Row::mode_theory_layer>,
          .meaning = "Mode of the point mass at friction_layer"},
+        {.name = "difference",
+         .unit = "1",
+         .value = difference,
+         .meaning = "efficiency minus efficiency_theory",
+         .format = "{:+.3f}",
+         .in_data = false,
+         .terminal = TerminalView{.heading = "difference", .priority = always_shown},
+         .report = ReportView{.heading = "difference"},
+         .colour = difference_colour},
+        {.name = "mode_theory",
+         .unit = "1",
+         .value = field<&Row::mode_theory>,
+         .meaning = "Mode of that point mass: the phases of a period in order, P positive slide, N negative "
+                    "slide, R rest, F flight; a prime marks the slide right after a landing",
+         .terminal = TerminalView{.heading = "mode", .subheading = "theory", .priority = 5},
+         .report = ReportView{.heading = "mode, theory"}},
+        {.name = "layer_mode",
+         .unit = "1",
+         .value = field<&Row::layer_mode>,
+         .meaning = "Mode of the simulated layer as a whole, in the same letters",
+         .terminal =
+             TerminalView{.heading = "mode", .subheading = "layer", .priority = 5, .only_when_known = true},
+         .report = ReportView{.heading = "mode, layer"}},
     };
 }
 
@@ -158,7 +183,6 @@ std::vector<Column> run_columns() {
          .unit = "1",
          .value = field<&Row::outcome>,
          .meaning = "How the case ended, or what it waits for",
-         .position = 200,
          .terminal = TerminalView{.heading = "outcome", .priority = 6, .flush_left = true},
          .report = ReportView{.heading = "outcome"},
          .colour = outcome_colour},
@@ -167,7 +191,6 @@ std::vector<Column> run_columns() {
          .value = field<&Row::not_covered>,
          .meaning = "What the case asks for under [engine] and the engine's certificate does not cover; "
                     "unknown when there is nothing",
-         .position = 210,
          .terminal = TerminalView{.heading = "not covered",
                                   .subheading = "by certificate",
                                   .priority = always_shown,
@@ -180,57 +203,18 @@ std::vector<Column> run_columns() {
          .meaning =
              "\"soft\" when Young's modulus is too low for the depth and the drive of the layer, so that "
              "efficiency is probably wrong by more than half of measure.half_width; unknown otherwise",
-         .position = 205,
          .terminal = TerminalView{.heading = "grains",
                                   .subheading = "too soft",
                                   .priority = always_shown,
                                   .flush_left = true,
                                   .only_when_known = true},
          .report = ReportView{.heading = "grains too soft"}},
-        {.name = "difference",
-         .unit = "1",
-         .value = difference,
-         .meaning = "efficiency minus efficiency_theory",
-         .format = "{:+.3f}",
-         .position = 130,
-         .in_data = false,
-         .terminal = TerminalView{.heading = "difference", .priority = always_shown},
-         .report = ReportView{.heading = "difference"},
-         .colour = difference_colour},
-        {.name = "efficiency_atlas",
-         .unit = "1",
-         .value = field<&Row::efficiency_atlas>,
-         .meaning = "Velocity efficiency from the atlas, a surface over simulated layers of spheres; unknown "
-                    "for layers outside of it",
-         .format = "{:.3f}",
-         .position = 97,
-         .terminal =
-             TerminalView{
-                 .heading = "eta atlas", .subheading = "95 %", .priority = 3, .only_when_known = true},
-         .report = ReportView{.heading = "\u03b7, atlas"},
-         .cell = atlas_cell},
-        {.name = "efficiency_atlas_half_width",
-         .unit = "1",
-         .value = field<&Row::efficiency_atlas_half_width>,
-         .meaning = "Half-width of the 95 % interval of efficiency_atlas"},
-    };
-}
-
-std::vector<Column> error_columns() {
-    return {
-        {.name = "larger_error",
-         .unit = "1",
-         .value = larger_error,
-         .meaning = "Which error of efficiency is larger: statistical (efficiency_half_width) or "
-                    "numerical",
-         .position = 86,
-         .report = ReportView{.heading = "larger error"}},
     };
 }
 
 std::string budget_cell(Row const& row) {
-    auto const statistical = row.number("efficiency_half_width"),
-               numerical = row.number("efficiency_numerical_error");
+    auto const statistical = row.number("efficiency_half_width_statistics"),
+               numerical = row.number("efficiency_numerics");
     if (!statistical || !numerical) return efficiency_cell(row);
     return core::three_digits(row.number("efficiency")) + " +- " + core::three_digits(statistical) + " +- " +
            (is_bound(row) ? "<" : "") + core::three_digits(numerical) + (is_borrowed(row) ? "*" : "");
@@ -263,12 +247,10 @@ std::vector<Column> measured_columns() {
                                .value = type_of(one.type_of_case()),
                                .meaning = one.meaning_of_case(),
                                .format = view.format,
-                               .position = view.position,
                                .terminal = view.terminal,
                                .report = view.report,
                                .measured = static_cast<int>(i),
-                               .unit_factor = view.factor,
-                               .place = view.place});
+                               .unit_factor = view.factor});
         }
     }
     return columns;
@@ -333,18 +315,17 @@ std::string Column::shown(Row const& row) const {
 
 std::span<Column const> all_columns() {
     static std::vector<Column> const columns = [] {
-        std::vector<Column> all = measured_columns();
-        set_cells(all);
-        // The places of the first column of each part, between which those of the quantities are.
-        for (auto const& [first, part] : {std::pair(10, drive_columns()), std::pair(160, theory_columns()),
-                                          std::pair(320, friction_columns()), std::pair(410, run_columns()),
-                                          std::pair(470, error_columns())}) {
-            for (std::size_t i = 0; i < part.size(); ++i) {
-                all.push_back(part[i]);
-                all.back().place = first + 10 * static_cast<int>(i);
-            }
+        std::vector<Column> all = drive_columns();
+        auto const add = [&](std::vector<Column> const& part) {
+            all.insert(all.end(), part.begin(), part.end());
+        };
+        for (Column const& column : measured_columns()) {
+            if (column.name == "efficiency_by_normal_force") add(theory_columns());
+            if (column.name == "conveying_speed_m_per_s") add(layer_columns());
+            all.push_back(column);
         }
-        std::ranges::stable_sort(all, {}, &Column::place);
+        add(run_columns());
+        set_cells(all);
         return all;
     }();
     return columns;

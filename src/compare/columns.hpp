@@ -43,7 +43,6 @@ struct Column {
     std::string meaning;  ///< one sentence for people, in the reference and the report
     std::string_view format =
         "{}";             ///< of a value in tables for people, as both fmt and Python understand it
-    int position = 0;     ///< in tables for people, counted from the left
     bool in_data = true;  ///< whether JSON, CSV and the VTK table have it
     std::optional<TerminalView> terminal = {};    ///< none: not in the terminal's table
     std::optional<ReportView> report = {};        ///< none: not in the report's table
@@ -57,7 +56,6 @@ struct Column {
     double unit_factor = 1;     ///< of the values in `unit` against those in Row::measured
     double factor = 1;          ///< tables for people show the number times this, in the unit `shown_unit`
     std::string_view shown_unit = "";               ///< empty: `unit`
-    int place = store::View::behind_all;            ///< in the order of JSON and CSV
     std::shared_ptr<std::string const> words = {};  ///< keeps headings that are not part of the program
 
     /// The type of the values.
@@ -68,15 +66,15 @@ struct Column {
     std::string shown(Row const& row) const;
 };
 
-/// All columns, in the order of JSON and CSV.
+/// All columns, in the order of every table.
 std::span<Column const> all_columns();
 
 /// All columns and one for each swept key that has none, named like the key. The columns of swept keys come
-/// right behind the case in tables for people, and are left out last.
+/// right behind the case, and are left out last in the terminal.
 std::vector<Column> columns_with_swept(scenario::SweptKeys const& swept);
 
-/// Adds the columns of a person's own quantities, for each number one of its mean and one of its half-width.
-/// Those that the program has meanwhile a quantity of the same name for are left out.
+/// Adds the columns of a person's own quantities before the outcome, for each number one of its mean and one
+/// of its half-width. Those that the program has meanwhile a quantity of the same name for are left out.
 void add_observed(std::vector<Column>& columns, std::span<store::Observable const> observables);
 
 /// Whether a column or a quantity of the program has this name, or had it once.

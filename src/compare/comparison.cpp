@@ -203,7 +203,7 @@ void Row::set(std::string_view quantity, std::optional<Value> const& value) {
 }
 
 bool is_bound(Row const& row) {
-    return row.of("efficiency_numerical_error") && !row.of("numerical_error_case");
+    return row.of("efficiency_numerics") && !row.of("numerical_error_case");
 }
 
 bool is_borrowed(Row const& row) {
@@ -212,14 +212,14 @@ bool is_borrowed(Row const& row) {
 }
 
 bool disagrees_with_atlas(Row const& row) {
-    auto const simulated = row.number("efficiency"), width = row.number("efficiency_whole_half_width");
+    auto const simulated = row.number("efficiency"), width = row.number("efficiency_half_width");
     if (!simulated || !width || !row.efficiency_atlas) return false;
     return std::abs(*simulated - *row.efficiency_atlas) > *width + *row.efficiency_atlas_half_width;
 }
 
 std::optional<std::string> larger_error(Row const& row) {
-    auto const statistical = row.number("efficiency_half_width"),
-               numerical = row.number("efficiency_numerical_error");
+    auto const statistical = row.number("efficiency_half_width_statistics"),
+               numerical = row.number("efficiency_numerics");
     if (!statistical || !numerical) return {};
     return *numerical > *statistical ? "numerical" : "statistical";
 }

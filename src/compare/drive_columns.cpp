@@ -1,5 +1,7 @@
 #include "compare/drive_columns.hpp"
 
+#include <utility>
+
 namespace vibrotrough::compare {
 namespace {
 
@@ -11,15 +13,13 @@ std::optional<double> turns_per_minute(Row const& row) {
     return 60 * row.frequency_hz;
 }
 
-}  // namespace
-
-std::vector<Column> drive_columns() {
+/// What the trough is.
+std::vector<Column> trough_columns() {
     return {
         {.name = "case",
          .unit = "1",
          .value = field<&Row::id>,
          .meaning = "Case id: a hash of the scenario, the deck and the engine's version",
-         .position = 10,
          .terminal = TerminalView{.heading = "case", .priority = always_shown, .flush_left = true},
          .report = ReportView{.heading = "case"}},
         {.name = "throw_number",
@@ -27,7 +27,6 @@ std::vector<Column> drive_columns() {
          .value = field<&Row::throw_number>,
          .meaning = "Throw number \u0393 = \u03c9\u00b2 r sin \u03b2 / (g cos \u03b1)",
          .format = "{:.3f}",
-         .position = 20,
          .terminal = TerminalView{.heading = "Gamma", .priority = 8},
          .report = ReportView{.heading = "throw number \u0393", .once_when_same = true},
          .key = "trough.throw_number"},
@@ -36,14 +35,12 @@ std::vector<Column> drive_columns() {
          .value = field<&Row::machine_number>,
          .meaning = "Machine number K = \u03c9\u00b2 r / g",
          .format = "{:.3f}",
-         .position = 25,
          .key = "trough.machine_number"},
         {.name = "vibration_angle_deg",
          .unit = "degree",
          .value = field<&Row::vibration_angle_deg>,
          .meaning = "Vibration angle \u03b2 between the direction of vibration and the trough",
          .format = "{:.2f}",
-         .position = 30,
          .terminal = TerminalView{.heading = "beta", .subheading = "deg", .priority = 5},
          .report = ReportView{.heading = "\u03b2", .once_when_same = true},
          .key = "trough.vibration_angle"},
@@ -52,7 +49,6 @@ std::vector<Column> drive_columns() {
          .value = field<&Row::inclination_deg>,
          .meaning = "Inclination \u03b1 of the trough, positive when it conveys uphill",
          .format = "{:.2f}",
-         .position = 40,
          .terminal = TerminalView{.heading = "alpha", .subheading = "deg", .priority = 3},
          .report = ReportView{.heading = "\u03b1", .once_when_same = true},
          .key = "trough.inclination"},
@@ -61,16 +57,20 @@ std::vector<Column> drive_columns() {
          .value = field<&Row::friction>,
          .meaning = "Friction coefficient \u03bc of a grain on the trough",
          .format = "{:.3g}",
-         .position = 50,
          .terminal = TerminalView{.heading = "mu", .priority = 4},
          .report = ReportView{.heading = "\u03bc", .once_when_same = true},
          .key = "trough.friction"},
+    };
+}
+
+/// How fast and how far it moves.
+std::vector<Column> vibration_columns() {
+    return {
         {.name = "amplitude_m",
          .unit = "m",
          .value = field<&Row::amplitude_m>,
          .meaning = "Amplitude r in the direction of vibration, half the stroke",
          .format = "{:.4g}",
-         .position = 55,
          .key = "trough.amplitude",
          .factor = 1e3,
          .shown_unit = "mm"},
@@ -79,7 +79,6 @@ std::vector<Column> drive_columns() {
          .value = stroke,
          .meaning = "Stroke 2 r, between the ends of the vibration",
          .format = "{:.4g}",
-         .position = 56,
          .report = ReportView{.heading = "stroke", .once_when_same = true},
          .key = "trough.stroke"},
         {.name = "frequency_hz",
@@ -87,7 +86,6 @@ std::vector<Column> drive_columns() {
          .value = field<&Row::frequency_hz>,
          .meaning = "Frequency of the vibration",
          .format = "{:.2f}",
-         .position = 60,
          .terminal = TerminalView{.heading = "f", .subheading = "Hz", .priority = 1},
          .report = ReportView{.heading = "frequency", .once_when_same = true},
          .key = "trough.frequency"},
@@ -96,9 +94,16 @@ std::vector<Column> drive_columns() {
          .value = turns_per_minute,
          .meaning = "Cycles of the vibration per minute, which are turns of an unbalanced or a crank drive",
          .format = "{:.0f}",
-         .position = 62,
          .report = ReportView{.heading = "turns", .once_when_same = true}},
     };
+}
+
+}  // namespace
+
+std::vector<Column> drive_columns() {
+    std::vector<Column> all = trough_columns();
+    for (Column& column : vibration_columns()) all.push_back(std::move(column));
+    return all;
 }
 
 }  // namespace vibrotrough::compare

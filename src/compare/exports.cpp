@@ -120,7 +120,6 @@ Json column_descriptions(std::span<Column const> columns) {
         if (column.report) {
             one["report"] = {{"heading", column.report->heading},
                              {"format", column.format},
-                             {"position", column.position},
                              {"factor", column.factor},
                              {"shown_unit", column.shown_unit.empty() ? column.unit : column.shown_unit},
                              {"once_when_same", column.report->once_when_same}};

@@ -9,8 +9,6 @@
 namespace vibrotrough::compare {
 namespace {
 
-constexpr int observed_position = 195;  ///< in tables for people, before the outcome
-
 Column column_of(std::string const& name, store::Observable const& observable, std::string meaning,
                  int place) {
     return {.name = name + unit_suffix(observable.unit),
@@ -18,7 +16,6 @@ Column column_of(std::string const& name, store::Observable const& observable, s
             .value = +[](Row const&) -> std::optional<double> { return {}; },
             .meaning = std::move(meaning),
             .format = "{:.4g}",
-            .position = observed_position,
             .observed = place};
 }
 
@@ -42,8 +39,8 @@ void add_observed(std::vector<Column>& columns, std::span<store::Observable cons
             half_width.terminal =
                 TerminalView{.heading = "+-", .subheading = unit, .priority = 0, .only_when_known = true};
             mean.words = half_width.words = words;
-            columns.push_back(std::move(mean));
-            columns.push_back(std::move(half_width));
+            auto const outcome = std::ranges::find(columns, "outcome", &Column::name);
+            columns.insert(columns.insert(outcome, std::move(half_width)), std::move(mean));
         }
         place += 2;
     }

@@ -2,7 +2,6 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
-#include "core/text.hpp"
 #include "store/reference.hpp"
 
 #include <algorithm>
@@ -17,8 +16,6 @@
 
 namespace vibrotrough::compare {
 namespace {
-
-constexpr std::size_t longest_shown = 60;
 
 /// Orders two values of one column, or a value of a column of numbers and another number.
 std::partial_ordering order(Value const& left, Value const& right) {
@@ -111,27 +108,8 @@ bool holds(Condition const& condition, Row const& row) {
     return false;
 }
 
-/// What to write instead: the columns that have a word of the name, else all.
+/// What to write instead of a name that no column has.
 std::string advice_of(std::span<Column const> columns, std::string_view name) {
-    constexpr std::string_view separators = "_. ";
-    constexpr std::size_t shortest = 4;
-    std::string all, similar;
-    auto const add = [](std::string& list, std::string_view one) {
-        list += fmt::format("{}{}", list.empty() ? "" : ", ", one);
-    };
-    for (Column const& column : columns) {
-        add(all, column.name);
-        if (column.name.find("half_width") != std::string_view::npos) continue;
-        for (std::size_t begin = 0; begin < name.size();) {
-            std::size_t const end = std::min(name.find_first_of(separators, begin), name.size());
-            std::string_view const word = name.substr(begin, end - begin);
-            if (word.size() >= shortest && column.name.find(word) != std::string_view::npos) {
-                add(similar, column.name);
-                break;
-            }
-            begin = end + 1;
-        }
-    }
     std::vector<std::string_view> names{"speed"};  // an older name, and a common word
     for (Column const& column : columns) {
         std::string const unit = column.unit == "1" ? "" : unit_suffix(column.unit);
@@ -142,8 +120,7 @@ std::string advice_of(std::span<Column const> columns, std::string_view name) {
     }
     if (auto const nearest = core::nearest_word(name, names); !nearest.empty())
         return fmt::format("did you mean {}?", nearest);
-    if (similar.empty()) return "the columns are " + all;
-    return fmt::format("similar ones are {}; 'vibrotrough quantities' describes all", similar);
+    return "'vibrotrough quantities' describes all";
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace vibrotrough::compare {
 /// A column by its name of today or before, with or without its unit, or by its key in the campaign file, in
 /// full or, for swept keys, without its section where that is unique.
 /// @param option  names what asks, in the error
-/// @throws core::InputError when there is no such column; it lists similar ones, or all
+/// @throws core::InputError when there is no such column; it names the nearest
 Column const& column_named(std::span<Column const> columns, std::string_view option, std::string_view name);
 
 /// Keeps the rows that fulfil a condition such as "throw_number>1.5" or "outcome=finished": a column, one of

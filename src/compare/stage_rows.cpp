@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "store/result_file.hpp"
-#include "store/stage_quantities.hpp"
+#include "store/schema.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace {
 enum FirstValues { stage_number, speed_theory, speed_rolling_layer, first_of_table };
 
 std::optional<double> number_of(Row const& row, std::string_view name) {
-    auto const& entries = store::stages_entries();
+    auto const& entries = store::case_table("stages").columns;
     auto const place = std::ranges::find(entries, name, &store::Entry::name) - entries.begin();
     auto const value = row.stage.at(first_of_table + static_cast<std::size_t>(place));
     return value ? std::optional(std::get<double>(*value)) : std::nullopt;
@@ -68,12 +68,11 @@ Column column_of(int place, std::string_view name, std::string_view unit, std::s
             .value = +[](Row const&) -> std::optional<double> { return {}; },
             .meaning = std::string(meaning),
             .format = "{:.4f}",
-            .position = 20 + place,
             .stage = place};
 }
 
 /// The columns of the theory, behind that of the speed.
-std::vector<Column> theory_columns(int position) {
+std::vector<Column> columns_of_theory() {
     Column point =
         column_of(speed_theory, "speed_theory", "m/s",
                   "Speed of the plastic point mass at the friction of a grain on the trough, driven "
@@ -85,7 +84,6 @@ std::vector<Column> theory_columns(int position) {
                   "range where the law has been tested");
     rolling.terminal =
         TerminalView{.heading = "rolling law", .subheading = "m/s", .priority = 3, .only_when_known = true};
-    point.position = rolling.position = position;
     return {point, rolling};
 }
 
@@ -98,7 +96,8 @@ std::optional<Value> known(std::optional<double> const& number) {
 std::vector<Row> stage_rows(std::string const& id, prepare::PreparedCase const& prepared,
                             store::CaseRecord const& record, std::string const& outcome) {
     std::vector<Row> rows;
-    auto const table = store::stages_table(record);
+    store::CaseTable const& stages = store::case_table("stages");
+    auto const table = stages.values(record);
     for (std::size_t i = 0; i < prepared.stages.size(); ++i) {
         scenario::Stage const& stage = prepared.stages[i];
         // A case with stages has no theory, but its stages do.
@@ -107,7 +106,7 @@ std::vector<Row> stage_rows(std::string const& id, prepare::PreparedCase const& 
         auto const speed = [&](std::optional<double> const& efficiency) {
             return efficiency ? known(*efficiency * alone.velocity_scale) : std::nullopt;
         };
-        row.stage.resize(first_of_table + store::stages_entries().size());
+        row.stage.resize(first_of_table + stages.columns.size());
         row.stage[speed_theory] = speed(row.efficiency_theory);
         row.stage[speed_rolling_layer] = speed(row.efficiency_rolling_layer);
         row.stage[stage_number] = static_cast<int>(i) + 1;
@@ -146,7 +145,7 @@ std::vector<Column> stage_columns(std::span<Column const> columns) {
     number.terminal = TerminalView{.heading = "stage", .priority = always_shown};
     chosen.push_back(std::move(number));
     int place = first_of_table;
-    for (store::Entry const& entry : store::stages_entries()) {
+    for (store::Entry const& entry : store::case_table("stages").columns) {
         Column column = column_of(place++, entry.name, entry.units, entry.meaning);
         if (auto const view = std::ranges::find(shown, entry.name, &Shown::name); view != shown.end()) {
             column.terminal = TerminalView{.heading = view->heading,
@@ -159,7 +158,7 @@ std::vector<Column> stage_columns(std::span<Column const> columns) {
         bool const is_speed = entry.name == "conveying_speed";
         chosen.push_back(std::move(column));
         if (!is_speed) continue;
-        for (Column& theory : theory_columns(chosen.back().position)) chosen.push_back(std::move(theory));
+        for (Column& theory : columns_of_theory()) chosen.push_back(std::move(theory));
     }
     for (std::string_view const name : {"mode_theory", "outcome"})
         chosen.push_back(*std::ranges::find(columns, name, &Column::name));

@@ -10,7 +10,6 @@ namespace {
 using scenario::Key;
 using scenario::KeyKind;
 
-constexpr int first_position = 11;  ///< right behind the case
 constexpr int swept_priority = 8;
 
 /// The heading in the terminal of columns that are shown there only when their key is swept.
@@ -50,7 +49,6 @@ Column column_of(Key const& key, int place) {
             .value = type_of(key),
             .meaning = std::string(key.meaning),
             .format = has_words(key) || key.kind == KeyKind::integer ? "{}" : "{:.6g}",
-            .position = first_position + place,
             .terminal = TerminalView{.heading = key.path.substr(key.path.find('.') + 1),
                                      .subheading = subheading_of(key),
                                      .priority = swept_priority},
@@ -62,7 +60,7 @@ Column column_of(Key const& key, int place) {
 }
 
 /// Shows a column that is always there as one of a swept key.
-void promote(Column& column, Key const& key, int place) {
+void promote(Column& column, Key const& key) {
     if (!column.terminal) {
         auto const found = std::ranges::find(headings, column.name, &Heading::name);
         column.terminal = TerminalView{.heading = key.path.substr(key.path.find('.') + 1)};
@@ -71,22 +69,20 @@ void promote(Column& column, Key const& key, int place) {
     }
     column.terminal->priority = swept_priority;
     if (!column.report) column.report = ReportView{.heading = scenario::short_name(key)};
-    column.position = first_position + place;
 }
 
 }  // namespace
 
 std::vector<Column> columns_with_swept(scenario::SweptKeys const& swept) {
     std::vector<Column> columns(all_columns().begin(), all_columns().end());
-    std::ptrdiff_t insert_at = 1;  // behind the case
     for (std::size_t i = 0; i < swept.size(); ++i) {
-        int const place = static_cast<int>(i);
         auto const known = std::ranges::find(columns, swept[i]->path, &Column::key);
+        Column column = known == columns.end() ? column_of(*swept[i], static_cast<int>(i)) : *known;
         if (known != columns.end()) {
-            promote(*known, *swept[i], place);
-        } else {
-            columns.insert(columns.begin() + insert_at++, column_of(*swept[i], place));
+            promote(column, *swept[i]);
+            columns.erase(known);
         }
+        columns.insert(columns.begin() + 1 + static_cast<std::ptrdiff_t>(i), std::move(column));
     }
     return columns;
 }

@@ -22,7 +22,6 @@ Columns terminal_columns(std::span<Column const> columns) {
     for (Column const& column : columns) {
         if (column.terminal) shown.push_back(&column);
     }
-    std::ranges::stable_sort(shown, {}, &Column::position);
     return shown;
 }
 

@@ -55,9 +55,9 @@ Json as_json(ModelForecast const& f, bool is_known) {
             {"mass_flow_sd_t_per_h", known(tonnes_per_hour * f.flow_sd)},
             {"budget", is_known ? budget_json(f) : Json::array()},
             {"efficiency", f.efficiency ? Json(f.efficiency->efficiency) : Json(nullptr)},
-            {"efficiency_half_width", half_width(&ModelEfficiency::statistics_sd)},
+            {"efficiency_half_width_statistics", half_width(&ModelEfficiency::statistics_sd)},
             {"numerical_error", half_width(&ModelEfficiency::numerics_sd)},
-            {"efficiency_whole_half_width",
+            {"efficiency_half_width",
              f.efficiency ? Json(atlas::deviations_in_half_width * f.efficiency->sd()) : Json(nullptr)}};
 }
 

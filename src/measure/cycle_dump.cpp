@@ -17,17 +17,6 @@ namespace {
 
 using Snapshots = std::map<long, std::vector<DumpedGrain>>;
 
-/// The step at which the run that wrote NAME.STEP.dump started.
-std::optional<long> start_of(std::string const& file, std::string_view name) {
-    constexpr std::string_view end = ".dump";
-    std::string const begin = std::string(name) + ".";
-    if (!file.starts_with(begin) || !file.ends_with(end)) return {};
-    long step = 0;
-    char const* const last = file.data() + file.size() - end.size();
-    auto const [rest, failure] = std::from_chars(file.data() + begin.size(), last, step);
-    return failure == std::errc() && rest == last ? std::optional(step) : std::nullopt;
-}
-
 /// Reads the snapshots of one file. The first one, of the step at which the run started, belongs to the run
 /// before it, which took its grains out.
 void read_snapshots(core::TextFile const& file, std::string_view columns, int steps_per_cycle, long start,
@@ -67,11 +56,22 @@ void read_snapshots(core::TextFile const& file, std::string_view columns, int st
 
 }  // namespace
 
+std::optional<long> start_step(std::filesystem::path const& path, std::string_view name,
+                               std::string_view ending) {
+    std::string const file = path.filename().string(), begin = std::string(name) + ".";
+    if (!file.starts_with(begin) || !file.ends_with(ending) || file.size() < begin.size() + ending.size())
+        return {};
+    long step = 0;
+    char const* const last = file.data() + file.size() - ending.size();
+    auto const [rest, failure] = std::from_chars(file.data() + begin.size(), last, step);
+    return failure == std::errc() && rest == last ? std::optional(step) : std::nullopt;
+}
+
 std::vector<DumpedGrain> parse_cycle_dumps(std::vector<core::TextFile> const& files, std::string_view name,
                                            std::string_view columns, int steps_per_cycle) {
     std::map<long, core::TextFile const*> by_start;
     for (core::TextFile const& file : files)
-        if (auto const start = start_of(file.path.filename().string(), name)) by_start[*start] = &file;
+        if (auto const start = start_step(file.path, name, ".dump")) by_start[*start] = &file;
     Snapshots all;
     for (auto const& [start, file] : by_start) {
         all.erase(all.upper_bound(start), all.end());

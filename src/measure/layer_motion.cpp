@@ -194,7 +194,8 @@ std::optional<double> Analysis::restitution() const {
         }
         flight = next;
     }
-    if (landings == 0) return {};
+    // Above 1 the trough has thrown the layer before the next flight, which is not restitution.
+    if (landings == 0 || sum > landings) return {};
     return sum / landings;
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "measure/constants.hpp"
+#include "measure/cycle_dump.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -85,12 +86,7 @@ class SnapshotParser {
 
 /// The step at which the run that wrote NAME.STEP.txt started.
 std::optional<long> start_of(fs::path const& path, std::string_view name) {
-    std::string const file = path.filename().string();
-    if (!file.starts_with(std::string(name) + ".") || !file.ends_with(".txt")) return {};
-    std::string_view const step(file.data() + name.size() + 1, file.size() - name.size() - 5);
-    long number = 0;
-    auto const [end, failure] = std::from_chars(step.data(), step.data() + step.size(), number);
-    return failure == std::errc() && end == step.data() + step.size() ? std::optional(number) : std::nullopt;
+    return start_step(path, name, ".txt");
 }
 
 /// The snapshots of the evaluated cycles, sorted by phase.

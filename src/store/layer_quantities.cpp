@@ -9,18 +9,13 @@ namespace {
 
 using Case = CaseRecord const&;
 using Packing = PackingRecord const&;
-using Real = std::optional<double> (*)(Case);
+using Real = Quantity::Real;
 using Motion = measure::LayerMotion;
 using enum OverPackings;
 
-/// A member of a packing's LayerMotion.
-template <auto member>
-auto motion() {
-    return packing_field([](auto& packing) -> auto& { return packing.motion.*member; });
-}
-
-auto granular_temperature() {
-    return packing_field([](auto& packing) -> auto& { return packing.granular_temperature; });
+template <typename Value>
+auto motion(Value Motion::*member) {
+    return field(&PackingRecord::motion, member);
 }
 
 std::optional<double> scaled(double factor, std::optional<double> const& value) {
@@ -32,12 +27,13 @@ double area_of(Case record) {
     return record.scenario.layer.length * record.scenario.layer.width;
 }
 
-/// The mean over the packings of a member of LayerMotion, per area of trough.
-template <auto member>
-std::optional<double> per_area(Case record) {
-    auto const mean = mean_over_packings(record, motion<member>());
-    if (!mean) return {};
-    return *mean / area_of(record);
+/// The mean over the packings, per area of trough.
+Real per_area(MeasuredNumber const& number) {
+    return [number](Case record) -> std::optional<double> {
+        auto const mean = mean_over_packings(record, number);
+        if (!mean) return {};
+        return *mean / area_of(record);
+    };
 }
 
 /// The mean over the packings of the dissipation over the kinetic energy scale of the layer, m (omega r)^2.
@@ -64,91 +60,82 @@ std::optional<double> gravity_power(Case record) {
 }
 
 std::optional<double> added_mass_fraction(Case record) {
-    auto const added = mean_over_packings(record, motion<&Motion::added_mass>());
+    auto const added = mean_over_packings(record, motion(&Motion::added_mass));
     if (!added) return {};
     return *added / (mass_per_area(record.scenario) * area_of(record));
 }
 
-/// A quantity that older files lack.
-Quantity added_later(Quantity row) {
-    row.may_be_missing = true;
-    return row;
-}
-
 std::vector<Quantity> machine_quantities() {
     return {
-        added_later(
-            {"added_mass", "kg",
-             "Mass that the layer adds to the trough, from the first harmonic of its force in phase with the "
-             "acceleration; may be negative",
-             motion<&Motion::added_mass>(), mean}),
-        added_later({"damping", "kg/s",
-                     "Damping that the layer adds to the trough, from the first harmonic of its force in "
-                     "phase with the "
-                     "velocity",
-                     motion<&Motion::damping>(), mean}),
-        added_later(
-            {"trough_power", "W", "Mean power of the trough on the layer", motion<&Motion::trough_power>()}),
+        {"added_mass", "kg",
+         "Mass that the layer adds to the trough, from the first harmonic of its force in phase with the "
+         "acceleration; may be negative",
+         motion(&Motion::added_mass), mean},
+        {"damping", "kg/s",
+         "Damping that the layer adds to the trough, from the first harmonic of its force in phase with the "
+         "velocity",
+         motion(&Motion::damping), mean},
+        {"trough_power", "W", "Mean power of the trough on the layer", motion(&Motion::trough_power)},
         {"power_per_area",
          "W/m2",
          "Mean power of the trough on the layer over the area of trough; mean over the packings",
-         Real(per_area<&Motion::trough_power>),
+         per_area(motion(&Motion::trough_power)),
          nothing,
-         {{.place = 260, .format = "{:.3g}", .position = 167, .report = ReportView{"power per area"}}}},
+         {{.format = "{:.3g}", .report = ReportView{"power per area"}}}},
         {"added_mass_per_area",
          "kg/m2",
          "Mean of added_mass over the area of trough",
-         Real(per_area<&Motion::added_mass>),
+         per_area(motion(&Motion::added_mass)),
          nothing,
-         {{.place = 270}}},
+         {{}}},
         {"added_mass_fraction",
          "1",
          "Mean of added_mass over the mass of the layer: 1 when the layer moves as a part of the trough",
          Real(added_mass_fraction),
          nothing,
-         {{.place = 280, .format = "{:.3f}", .position = 168, .report = ReportView{"added mass / mass"}}}},
+         {{.format = "{:.3f}", .report = ReportView{"added mass / mass"}}}},
         {"damping_per_area",
          "N s/m3",
          "Mean of damping over the area of trough",
-         Real(per_area<&Motion::damping>),
+         per_area(motion(&Motion::damping)),
          nothing,
-         {{.place = 290, .format = "{:.3g}", .position = 169, .report = ReportView{"damping per area"}}}},
+         {{.format = "{:.3g}", .report = ReportView{"damping per area"}}}},
     };
+}
+
+std::vector<Quantity> temperature_quantities() {
+    std::vector<Quantity> rows;
+    add_measured(
+        rows, field(&PackingRecord::granular_temperature),
+        {"granular_temperature", "granular_temperature_half_width"}, "m2/s2",
+        "Granular temperature: a third of the mean square of the grains' velocities relative to the "
+        "mean in their slab of one diameter, mean over ten phases of the cycle; the peak of a landing "
+        "is shorter than their distance, so that other phases can give several times as much; NaN "
+        "with clumps and several materials",
+        {.format = "{:.3g}"});
+    for (Quantity& row : rows) row.known_without_mean = false;
+    return rows;
 }
 
 std::vector<Quantity> motion_quantities() {
     return {
         {"layer_mode", "1", "The bulk's mode in the theory's letters, read from the mean curves in phases",
-         motion<&Motion::mode>()},
+         motion(&Motion::mode)},
         {"period_cycles", "1", "Cycles after which the layer's motion repeats, 1 to 8",
-         motion<&Motion::period_cycles>(), largest},
+         motion(&Motion::period_cycles), largest},
         {"take_off_phase", "rad",
          "Phase at which the layer takes off for its longest flight; NaN without flight",
-         motion<&Motion::take_off_phase>(), mean},
+         motion(&Motion::take_off_phase), mean},
         {"landing_phase", "rad", "Phase at which it lands, above take_off_phase; NaN without flight",
-         motion<&Motion::landing_phase>(), mean},
+         motion(&Motion::landing_phase), mean},
         {"flight_number", "1", "Duration of the longest flight in cycles, 0 without flight",
-         motion<&Motion::flight_number>(), mean},
+         motion(&Motion::flight_number), mean},
         {"effective_restitution", "1",
          "Bulk restitution: largest rising speed of the centre of mass relative to the trough between "
-         "landing and next take-off over its falling speed before landing; NaN without landings",
-         motion<&Motion::restitution>(), mean},
-        added_later({"granular_temperature",
-                     "m2/s2",
-                     "Granular temperature: a third of the mean square of the grains' velocities relative to "
-                     "the mean in their slab of one diameter, mean over ten phases of the cycle; the peak of "
-                     "a landing is shorter than their distance, so that other phases can give several times "
-                     "as much; NaN with clumps and several materials",
-                     granular_temperature(),
-                     mean,
-                     {{.place = 1230, .format = "{:.3g}", .position = 191}}}),
-        {"granular_temperature_half_width",
-         "m2/s2",
-         "Half-width of the interval of granular_temperature at measure.confidence, Student's t over the "
-         "packings; NaN with one packing",
-         Real([](Case c) { return half_width_over_packings(c, granular_temperature()); }),
-         nothing,
-         {{.place = 1232, .format = "{:.2g}", .position = 192}}},
+         "landing and next take-off over its falling speed before landing; NaN without landings, and above "
+         "1, "
+         "where it measures how the trough throws the layer again and not how the layer rebounds",
+         motion(&Motion::restitution), mean},
         {"gravity_power", "W",
          "Mean power of gravity on the conveyed layer, negative uphill: - m g sin(alpha) times the conveying "
          "speed",
@@ -156,13 +143,12 @@ std::vector<Quantity> motion_quantities() {
         {"dissipated_power", "W",
          "Dissipation times frequency; of a steady layer it is the power of the trough and of gravity",
          Real([](Case c) {
-             return scaled(c.scenario.trough.frequency,
-                           mean_over_packings(c, motion<&Motion::dissipation>()));
+             return scaled(c.scenario.trough.frequency, mean_over_packings(c, motion(&Motion::dissipation)));
          })},
         {"dissipation", "J",
          "Energy dissipated per cycle: work of trough and gravity on the layer less its gain of kinetic "
          "energy",
-         motion<&Motion::dissipation>(), mean},
+         motion(&Motion::dissipation), mean},
         {"dissipation_fraction", "1", "Dissipation over m (omega r)^2; mean over the packings",
          Real(dissipation_fraction)},
     };
@@ -173,43 +159,29 @@ std::vector<Quantity> contact_quantities() {
         {"floor_slip", "m/s",
          "Slip speed of the touching grains' surface on the floor, mean over grains and phases of its "
          "magnitude",
-         motion<&Motion::floor_slip>(), mean},
+         motion(&Motion::floor_slip), mean},
         {"friction_ratio", "1",
          "Tangential over normal force while the layer slides, apart from the ends of slides; NaN without "
          "slides",
-         motion<&Motion::friction_ratio>(), mean},
+         motion(&Motion::friction_ratio), mean},
         {"landing_friction",
          "1",
          "Tangential over normal impulse of the layer on the trough from its landing until its centre of "
          "mass no longer falls against the trough; NaN without landings and with side walls",
-         motion<&Motion::landing_friction>(),
+         motion(&Motion::landing_friction),
          mean,
-         {{.place = 310}}},
-        {"efficiency_by_normal_force",
-         "1",
-         "Velocity efficiency of a point mass with Coulomb friction under the layer's own normal force; NaN "
-         "with side walls",
-         motion<&Motion::efficiency_by_normal_force>(),
-         mean,
-         {{.place = 300,
-           .format = "{:.3f}",
-           .position = 100,
-           .terminal = TerminalView{.heading = "eta point",
-                                    .subheading = "its force",
-                                    .priority = 3,
-                                    .only_when_known = true}}}},
-        {"largest_overlap", "m", "Largest overlap of two grains", motion<&Motion::largest_overlap>(),
-         largest},
+         {{}}},
+        {"largest_overlap", "m", "Largest overlap of two grains", motion(&Motion::largest_overlap), largest},
         {"largest_floor_overlap", "m", "Largest overlap of a grain and the floor",
-         motion<&Motion::largest_floor_overlap>(), largest},
+         motion(&Motion::largest_floor_overlap), largest},
         {"velocity_gradient", "1",
          "Velocity along the trough of the upper third of the layer less that of the lower third, over the "
          "conveying speed; NaN when it is not conveyed",
-         packing_field([](auto& packing) -> auto& { return packing.profiles.velocity_gradient; }), mean},
+         field(&PackingRecord::profiles, &measure::Profiles::velocity_gradient), mean},
         {"wiggle_amplitude", "m",
          "Amplitude of a sinusoid with the variance of the surface's height along the trough, root mean "
          "square over the snapshots",
-         packing_field([](auto& packing) -> auto& { return packing.surface.wiggle_amplitude; }), mean},
+         field(&PackingRecord::surface, &measure::Surface::wiggle_amplitude), mean},
     };
 }
 
@@ -217,7 +189,8 @@ std::vector<Quantity> contact_quantities() {
 
 std::vector<Quantity> layer_quantities() {
     std::vector<Quantity> all;
-    for (auto const& part : {machine_quantities(), motion_quantities(), contact_quantities()})
+    for (auto const& part :
+         {machine_quantities(), motion_quantities(), temperature_quantities(), contact_quantities()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
 }

@@ -3,13 +3,14 @@
 #include "measure/mass_flow.hpp"
 #include "measure/segregation.hpp"
 #include "scenario/reader/keys.hpp"
-#include "store/material_flow_tables.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include <fmt/format.h>
 
 namespace vibrotrough::store {
 namespace {
@@ -87,17 +88,6 @@ double half_width_of(Case record, std::vector<double> const& values) {
     return measure::student_half_width(values, record.scenario.measure.confidence).value_or(unknown());
 }
 
-/// The field of a packing as a quantity.
-using OptionalNumber = Field<PackingRecord, std::optional<double>>;
-
-OptionalNumber segregation() {
-    return packing_field([](auto& packing) -> auto& { return packing.segregation; });
-}
-
-OptionalNumber lead() {
-    return packing_field([](auto& packing) -> auto& { return packing.material_lead; });
-}
-
 /// A column with one number for each material.
 std::vector<double> numbers(std::vector<scenario::Material> const& all,
                             double (*of)(scenario::Material const&)) {
@@ -107,7 +97,7 @@ std::vector<double> numbers(std::vector<scenario::Material> const& all,
 }
 
 /// Mean and half-width over the packings of a number for each material.
-void add_measured(std::vector<CaseValues>& columns, Case record, std::size_t materials, OfPacking of) {
+void add_values(std::vector<CaseValues>& columns, Case record, std::size_t materials, OfPacking of) {
     std::vector<double> means, widths;
     for (std::size_t material = 0; material < materials; ++material) {
         std::vector<double> const values = in_packings(record, of, material);
@@ -118,63 +108,7 @@ void add_measured(std::vector<CaseValues>& columns, Case record, std::size_t mat
     columns.emplace_back(std::move(widths));
 }
 
-template <std::size_t i>
-void add_series(std::vector<PackingTable>& tables) {
-    constexpr std::array x{"x_0", "x_1", "x_2", "x_3"}, z{"z_0", "z_1", "z_2", "z_3"};
-    tables.push_back(
-        {"material_ends",
-         {x[i], "m",
-          "Centre of mass along the trough of material 0 ([grains]), 1 (the first of [[materials]]) "
-          "and so on, at the end of cycle 0 ... n, unwrapped; only of mixtures"},
-         packing_field([](auto& p) -> auto& { return p.series.materials[i].x; })});
-    tables.push_back({"material_ends", {z[i], "m", "The same above the resting trough"}, packing_field([
-                      ](auto& p) -> auto& { return p.series.materials[i].z; })});
-}
-
-}  // namespace
-
-std::span<PackingTable const> material_tables(std::size_t materials, bool open) {
-    static std::vector<PackingTable> const tables = [] {
-        std::vector<PackingTable> all;
-        add_series<0>(all);
-        add_series<1>(all);
-        add_series<2>(all);
-        add_series<3>(all);
-        return all;
-    }();
-    if (materials < 2) return {};
-    return open ? material_flow_tables() : std::span(tables).first(2 * materials);
-}
-
-std::vector<Entry> const& materials_entries() {
-    static std::vector<Entry> const entries{
-        {"name", "1", "Name of the material, that of [grains] first; only of mixtures"},
-        {"number_fraction", "1", "Its share of the grains"},
-        {"diameter", "m", "Mean diameter d of its grains"},
-        {"density", "kg/m3", "Density of its grains"},
-        {"friction", "1", "Friction coefficient of the material on itself"},
-        {"trough_friction", "1", "Friction coefficient mu on the trough"},
-        {"efficiency", "1",
-         "Velocity efficiency of the material's centre of mass, over the cycles kept; in an open trough of "
-         "its "
-         "grains in the window, over the cycles with which flows are measured"},
-        {"efficiency_half_width", "1",
-         "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one "
-         "packing"},
-        {"segregation", "1",
-         "Segregation index S: height of its centre of mass above that of the other materials over half the "
-         "height of the layer, over the last tenth of the cycles, or in the window of an open trough; 1 on "
-         "top, -1 at the floor, 0 mixed"},
-        {"segregation_half_width", "1", "Half-width of its interval, as for efficiency"},
-        {"outflow", "kg/s", "Its mass flow over the edge; only of open troughs"},
-        {"outflow_half_width", "kg/s", "Half-width of its interval, as for efficiency"},
-        {"residence_time", "s", "Its time from the feed to the edge; only of open troughs"},
-        {"residence_time_half_width", "s", "Half-width of its interval, as for efficiency"},
-    };
-    return entries;
-}
-
-std::vector<CaseValues> materials_table(Case record) {
+std::vector<CaseValues> materials_values(Case record) {
     if (!is_mixture(record)) return {};
     using Material = scenario::Material;
     auto const all = materials(record.scenario);
@@ -188,37 +122,15 @@ std::vector<CaseValues> materials_table(Case record) {
         numbers(all, [](Material const& m) { return m.grains.friction; }),
         numbers(all, [](Material const& m) { return m.trough_friction; }),
     };
-    add_measured(columns, record, all.size(), efficiency_of);
-    add_measured(columns, record, all.size(), last_index);
+    add_values(columns, record, all.size(), efficiency_of);
+    add_values(columns, record, all.size(), last_index);
     if (!is_open(record.scenario)) return columns;
-    add_measured(columns, record, all.size(), material_outflow);
-    add_measured(columns, record, all.size(), material_residence);
+    add_values(columns, record, all.size(), material_outflow);
+    add_values(columns, record, all.size(), material_residence);
     return columns;
 }
 
-std::vector<Entry> const& segregation_entries() {
-    constexpr auto mean =
-        "Segregation index of material 0 ([grains]), 1 (the first of [[materials]]) and so on at the end of "
-        "the "
-        "cycle, mean over the packings";
-    constexpr auto half_width =
-        "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one "
-        "packing";
-    static std::vector<Entry> const entries{
-        {"cycle", "1", "Number of cycles since the start; only of mixtures"},
-        {"index_0", "1", mean},
-        {"half_width_0", "1", half_width},
-        {"index_1", "1", mean},
-        {"half_width_1", "1", half_width},
-        {"index_2", "1", mean},
-        {"half_width_2", "1", half_width},
-        {"index_3", "1", mean},
-        {"half_width_3", "1", half_width},
-    };
-    return entries;
-}
-
-std::vector<CaseValues> segregation_table(Case record) {
+std::vector<CaseValues> segregation_values(Case record) {
     if (!is_mixture(record) || is_open(record.scenario)) return {};
     std::size_t cycle_ends = record.packings.front().series.x.size();
     for (PackingRecord const& packing : record.packings)
@@ -243,6 +155,153 @@ std::vector<CaseValues> segregation_table(Case record) {
     return columns;
 }
 
+bool has_materials(scenario::Scenario const& s) {
+    return !s.materials.empty();
+}
+
+bool is_kept_mixture(scenario::Scenario const& s) {
+    return has_materials(s) && !is_open(s);
+}
+
+bool is_fed_mixture(scenario::Scenario const& s) {
+    return has_materials(s) && is_open(s);
+}
+
+auto flow_of(std::vector<double> measure::MaterialFlows::*member) {
+    return field(&PackingRecord::open, &measure::OpenFlow::materials, member);
+}
+
+auto along(std::vector<double> measure::MaterialsAlong::*member) {
+    return field(&PackingRecord::open, &measure::OpenFlow::materials_along, member);
+}
+
+std::vector<CaseValues> materials_along_values(Case record) {
+    using Along = measure::MaterialsAlong;
+    if (!is_fed_mixture(record.scenario) || record.packings.empty()) return {};
+    std::vector<double> const& x = record.packings.front().open.materials_along.x;
+    if (x.empty()) return {};
+    auto const all = materials(record.scenario);
+    std::vector<std::string> names;
+    for (scenario::Material const& material : all)
+        names.insert(names.end(), x.size() / all.size(), material.name);
+    std::vector<CaseValues> columns{names, x};
+    for (auto const member : {&Along::share, &Along::speed, &Along::segregation})
+        over_packings(record, along(member), x.size()).put_into(columns);
+    return columns;
+}
+
+PackingTable ends_table() {
+    PackingTable table{"material_ends", "cycles + 1", is_kept_mixture, {}};
+    for (std::size_t i = 0; i < measure::most_materials; ++i) {
+        std::string const number = std::to_string(i);
+        using Column = Field<PackingRecord, std::vector<double>>;
+        Column const x([i](auto& p) -> auto& { return p.series.materials[i].x; });
+        Column const z([i](auto& p) -> auto& { return p.series.materials[i].z; });
+        table.columns.push_back({{"x_" + number, "m",
+                                  "Centre of mass along the trough of material 0 ([grains]), 1 (the first of "
+                                  "[[materials]]) and so "
+                                  "on, at the end of cycle 0 ... n, unwrapped; only of mixtures"},
+                                 x});
+        table.columns.push_back({{"z_" + number, "m", "The same above the resting trough"}, z});
+    }
+    return table;
+}
+
+PackingTable flows_table() {
+    using Flows = measure::MaterialFlows;
+    return {"material_flow",
+            "materials",
+            is_fed_mixture,
+            {{{"velocity", "m/s",
+               "Velocity of material 0 ([grains]), 1 (the first of [[materials]]) and so on in the window; "
+               "only of mixtures in open troughs"},
+              flow_of(&Flows::speed)},
+             {{"segregation", "1", "Its segregation index in the window, mean of the bins"},
+              flow_of(&Flows::segregation)},
+             {{"outflow", "kg/s", "Its mass flow over the edge"}, flow_of(&Flows::outflow)},
+             {{"residence_time", "s",
+               "Its time from the feed to the edge; NaN when fewer than 20 of its grains left"},
+              flow_of(&Flows::residence_time)}}};
+}
+
+PackingTable along_table() {
+    using Along = measure::MaterialsAlong;
+    return {
+        "material_along",
+        "materials * bins",
+        is_fed_mixture,
+        {{{"x", "m",
+           "Middle of a bin along the trough, from the back wall: all bins for material 0, then for 1 and "
+           "so on; only of mixtures in open troughs"},
+          along(&Along::x)},
+         {{"share", "1", "Share of the material in the mass of the bin"}, along(&Along::share)},
+         {{"velocity", "m/s", "Its velocity; NaN where there was none"}, along(&Along::speed)},
+         {{"segregation", "1", "Its segregation index; NaN where it was alone or missing"},
+          along(&Along::segregation)}}};
+}
+
+CaseTable materials_table() {
+    std::vector<Entry> entries{
+        {"name", "1", "Name of the material, that of [grains] first; only of mixtures"},
+        {"number_fraction", "1", "Its share of the grains"},
+        {"diameter", "m", "Mean diameter d of its grains"},
+        {"density", "kg/m3", "Density of its grains"},
+        {"friction", "1", "Friction coefficient of the material on itself"},
+        {"trough_friction", "1", "Friction coefficient mu on the trough"},
+    };
+    add_measured(entries, {"efficiency", "1",
+                           "Velocity efficiency of the material's centre of mass, over the cycles kept; "
+                           "in an open trough of its grains in the window, over the cycles with which "
+                           "flows are measured"});
+    add_measured(
+        entries,
+        {"segregation", "1",
+         "Segregation index S: height of its centre of mass above that of the other materials over "
+         "half the height of the layer, over the last tenth of the cycles, or in the window of an open "
+         "trough; 1 on top, -1 at the floor, 0 mixed"});
+    add_measured(entries, {"outflow", "kg/s", "Its mass flow over the edge; only of open troughs"});
+    add_measured(entries,
+                 {"residence_time", "s", "Its time from the feed to the edge; only of open troughs"});
+    return {"materials", "materials", entries, materials_values, "name"};
+}
+
+CaseTable materials_along_table() {
+    std::vector<Entry> entries{{"material", "1", "Name of the material; only of mixtures in open troughs"},
+                               {"x", "m", "Middle of a bin along the trough, from the back wall"}};
+    add_measured(entries,
+                 {"share", "1", "Share of the material in the mass of the bin, mean over the packings"});
+    add_measured(entries, {"velocity", "m/s",
+                           "Its velocity along the trough, mean over the packings; NaN where none has "
+                           "it"});
+    add_measured(entries, {"segregation", "1",
+                           "Segregation index: height of its centre of mass above that of the other "
+                           "materials over half the settled depth in the bin; NaN where it was alone or "
+                           "missing"});
+    return {"materials_along", "materials * bins", entries, materials_along_values, "material"};
+}
+
+CaseTable segregation_table() {
+    std::vector<Entry> entries{{"cycle", "1", "Number of cycles since the start; only of mixtures"}};
+    for (int i = 0; i < measure::most_materials; ++i) {
+        add_measured(entries,
+                     {fmt::format("index_{}", i), "1",
+                      "Segregation index of material 0 ([grains]), 1 (the first of [[materials]]) and "
+                      "so on at the end of the cycle, mean over the packings"});
+        entries.back().name = fmt::format("half_width_{}", i);
+    }
+    return {"segregation", "cycles + 1", entries, segregation_values};
+}
+
+}  // namespace
+
+std::vector<PackingTable> material_tables() {
+    return {ends_table(), flows_table(), along_table()};
+}
+
+std::vector<CaseTable> materials_case_tables() {
+    return {materials_table(), materials_along_table(), segregation_table()};
+}
+
 void add_materials(CaseRecord& record) {
     if (!is_mixture(record)) return;
     for (PackingRecord& packing : record.packings) {
@@ -252,45 +311,20 @@ void add_materials(CaseRecord& record) {
 }
 
 std::vector<Quantity> material_quantities() {
-    std::vector<Quantity> rows{
-        {"segregation",
-         "1",
-         "Segregation index of the first of [[materials]], over the last tenth of the cycles, or in the "
-         "window of an open trough: 1 when it lies on top of the others, -1 at the floor, 0 when the layer "
-         "is "
-         "mixed; NaN without materials",
-         segregation(),
-         OverPackings::mean,
-         {{.place = 900,
-           .format = "{:.3f}",
-           .position = 262,
-           .terminal = TerminalView{.heading = "segregation", .priority = 4, .only_when_known = true},
-           .report = ReportView{"segregation"}}}},
-        {"segregation_half_width",
-         "1",
-         "Half-width of the interval of segregation, Student's t over the packings",
-         +[](Case c) { return half_width_over_packings(c, segregation()); },
-         OverPackings::nothing,
-         {{.place = 910,
-           .format = "{:.3f}",
-           .position = 264,
-           .terminal = TerminalView{.heading = "+-", .priority = 4, .only_when_known = true},
-           .report = ReportView{"\u00b1"}}}},
-        {"material_lead",
-         "1",
-         "Velocity efficiency of the first of [[materials]] less that of the grains: how much faster it is "
-         "conveyed; NaN without materials",
-         lead(),
-         OverPackings::mean,
-         {{.place = 920, .format = "{:.3f}", .position = 266, .report = ReportView{"lead of the material"}}}},
-        {"material_lead_half_width",
-         "1",
-         "Half-width of the interval of material_lead, Student's t over the packings",
-         +[](Case c) { return half_width_over_packings(c, lead()); },
-         OverPackings::nothing,
-         {{.place = 930, .format = "{:.3f}", .position = 268, .report = ReportView{"\u00b1 lead"}}}},
-    };
-    for (Quantity& row : rows) row.may_be_missing = row.known_without_mean = true;
+    std::vector<Quantity> rows;
+    add_measured(
+        rows, field(&PackingRecord::segregation), {"segregation", "segregation_half_width"}, "1",
+        "Segregation index of the first of [[materials]], over the last tenth of the cycles, or in the "
+        "window of an open trough: 1 when it lies on top of the others, -1 at the floor, 0 when the "
+        "layer is mixed; NaN without materials",
+        {.format = "{:.3f}",
+         .terminal = terminal_when_known("segregation"),
+         .report = ReportView{"segregation"}});
+    add_measured(
+        rows, field(&PackingRecord::material_lead), {"material_lead", "material_lead_half_width"}, "1",
+        "Velocity efficiency of the first of [[materials]] less that of the grains: how much faster it "
+        "is conveyed; NaN without materials",
+        {.format = "{:.3f}", .report = ReportView{"lead of the material"}});
     return rows;
 }
 

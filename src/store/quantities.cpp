@@ -13,16 +13,14 @@ namespace vibrotrough::store {
 namespace {
 
 using Case = CaseRecord const&;
-using Real = std::optional<double> (*)(Case);
-using Integer = int (*)(Case);
-using Text = std::string (*)(Case);
+using Real = Quantity::Real;
+using Integer = Quantity::Integer;
+using Text = Quantity::Text;
 using enum OverPackings;
 
-/// A number of a case, which exists always or only of some cases.
-/// @param value  a lambda without captures that returns a double or an optional one
 template <typename Value>
-Real real(Value) {
-    return [](Case record) -> std::optional<double> { return Value{}(record); };
+auto estimate(Value measure::PackingEstimate::*member) {
+    return field(&PackingRecord::estimate, member);
 }
 
 /// An unbounded interval has the half-width infinity in the files; without a mean there is none.
@@ -69,23 +67,23 @@ Quantity also_without_mean(Quantity row) {
 std::vector<Quantity> drive_quantities() {
     return {
         {"throw_number", "1", "Throw number Gamma = omega^2 r sin(beta) / (g cos(alpha))",
-         real([](Case c) { return throw_number(c.scenario.trough); })},
+         Real([](Case c) { return throw_number(c.scenario.trough); })},
         {"machine_number", "1", "Machine number K = omega^2 r / g",
-         real([](Case c) { return machine_number(c.scenario.trough); })},
+         Real([](Case c) { return machine_number(c.scenario.trough); })},
         {"vibration_angle", "rad", "Vibration angle beta, between the direction of vibration and the trough",
-         real([](Case c) { return c.scenario.trough.vibration_angle; })},
+         Real([](Case c) { return c.scenario.trough.vibration_angle; })},
         {"inclination", "rad", "Inclination alpha of the trough, uphill positive in the conveying direction",
-         real([](Case c) { return c.scenario.trough.inclination; })},
+         Real([](Case c) { return c.scenario.trough.inclination; })},
         {"amplitude", "m", "Amplitude r in the direction of vibration, half the stroke",
-         real([](Case c) { return c.scenario.trough.amplitude; })},
+         Real([](Case c) { return c.scenario.trough.amplitude; })},
         {"frequency", "Hz", "Frequency of the vibration, 1/T",
-         real([](Case c) { return c.scenario.trough.frequency; })},
+         Real([](Case c) { return c.scenario.trough.frequency; })},
         {"friction", "1", "Friction coefficient mu, grain on trough",
-         real([](Case c) { return c.scenario.trough.friction; })},
+         Real([](Case c) { return c.scenario.trough.friction; })},
         {"restitution", "1", "Restitution coefficient e, grain on trough, nominal value of the contact model",
-         real([](Case c) { return c.scenario.trough.restitution; })},
+         Real([](Case c) { return c.scenario.trough.restitution; })},
         {"velocity_scale", "m/s", "omega r cos(beta), the speed at velocity efficiency 1",
-         real([](Case c) { return velocity_scale(c.scenario.trough); })},
+         Real([](Case c) { return velocity_scale(c.scenario.trough); })},
     };
 }
 
@@ -94,117 +92,128 @@ std::vector<Quantity> efficiency_quantities() {
         {"efficiency",
          "1",
          "Velocity efficiency eta, mean over the packings; NaN unless outcome is finished or not-precise",
-         real([](Case c) { return c.estimate.mean; }),
+         Real([](Case c) { return c.estimate.mean; }),
          nothing,
-         {{.place = 110,
-           .format = "{:.3f}",
-           .position = 70,
+         {{.format = "{:.3f}",
            .terminal = TerminalView{.heading = "eta DEM", .priority = always_shown},
            .report = ReportView{"\u03b7, DEM"}}}},
         {"efficiency_half_width",
+         "1",
+         "Half-width of efficiency for statistics and numerics together: the root of the sum of the squares "
+         "of efficiency_half_width_statistics and efficiency_numerics",
+         Real(whole_half_width),
+         nothing,
+         {{.format = "{:.3f}", .report = ReportView{"\u00b1 together"}}}},
+        {"efficiency_half_width_statistics",
          "1",
          "Half-width of the confidence interval of efficiency, which allows for the fluctuations within runs "
          "and between packings; NaN unless outcome is finished or not-precise",
          Real(half_width),
          nothing,
-         {{.place = 120, .format = "{:.3f}", .position = 80, .report = ReportView{"\u00b1 statistical"}}}},
-        {"efficiency_numerical_error",
+         {{.format = "{:.3f}", .report = ReportView{"\u00b1 statistical"}}}},
+        {"efficiency_numerics",
          "1",
          "Numerical error of efficiency, by softness of the grains, box and time step: as 'vibrotrough "
          "convergence' measured it, else its bound at 95 % (validation/whole_interval)",
-         real([](Case c) { return c.numerical_error(); }),
+         Real([](Case c) { return c.numerical_error(); }),
          nothing,
-         {{.place = 450, .format = "{:.3f}", .position = 82, .report = ReportView{"\u00b1 numerical"}}}},
+         {{.format = "{:.3f}", .report = ReportView{"\u00b1 numerical"}}}},
         {"numerical_error_case",
          "1",
-         "Case that efficiency_numerical_error was measured at: this one, or the nearest that was studied; "
+         "Case that efficiency_numerics was measured at: this one, or the nearest that was studied; "
          "empty for a bound",
          Text([](Case c) { return c.studied ? c.studied->case_id : std::string(); }),
          nothing,
-         {{.place = 460, .position = 84, .report = ReportView{"numerical error of case"}}}},
-        {"efficiency_whole_half_width",
+         {{.report = ReportView{"numerical error of case"}}}},
+        {"efficiency_by_normal_force",
          "1",
-         "Half-width of efficiency for statistics and numerics together: the root of the sum of the squares "
-         "of efficiency_half_width and efficiency_numerical_error",
-         Real(whole_half_width),
-         nothing,
-         {{.place = 130, .format = "{:.3f}", .position = 87, .report = ReportView{"\u00b1 together"}}}},
+         "Velocity efficiency of a point mass with Coulomb friction under the layer's own normal force; NaN "
+         "with side walls",
+         field(&PackingRecord::motion, &measure::LayerMotion::efficiency_by_normal_force),
+         mean,
+         {{.format = "{:.3f}",
+           .terminal = TerminalView{.heading = "eta point",
+                                    .subheading = "its force",
+                                    .priority = 3,
+                                    .only_when_known = true}}}},
+    };
+}
+
+std::vector<Quantity> numerics_quantities() {
+    return {
         {"softness_error", "1", "Bound of the error of efficiency by soft grains",
-         real([](Case c) { return prepare::numerical_errors(c.scenario).softness; })},
+         Real([](Case c) { return prepare::numerical_errors(c.scenario).softness; })},
         {"box_error", "1", "Bound of the error of efficiency by the size of the periodic box",
-         real([](Case c) { return prepare::numerical_errors(c.scenario).box; })},
+         Real([](Case c) { return prepare::numerical_errors(c.scenario).box; })},
         {"time_step_error", "1", "Bound of the error of efficiency by the time step",
-         real([](Case c) { return prepare::numerical_errors(c.scenario).time_step; })},
+         Real([](Case c) { return prepare::numerical_errors(c.scenario).time_step; })},
         {"soft", "1",
          "1 when the grains are too soft for the depth and the drive of the layer, so that efficiency is "
          "probably wrong by more than half of half_width_wanted; else 0",
          Integer([](Case c) { return prepare::is_soft(c.scenario) ? 1 : 0; })},
         {"confidence", "1", "Confidence of every interval in this file",
-         real([](Case c) { return c.scenario.measure.confidence; })},
+         Real([](Case c) { return c.scenario.measure.confidence; })},
     };
 }
 
-std::vector<Quantity> flow_quantities() {
+std::vector<Quantity> speed_quantities() {
     return {
         {"conveying_speed",
          "m/s",
          "Conveying speed along the trough: efficiency times velocity_scale",
-         real([](Case c) { return speed(c, c.estimate.mean); }),
+         Real([](Case c) { return speed(c, c.estimate.mean); }),
          nothing,
-         {{.place = 140,
-           .format = "{:.3f}",
-           .position = 160,
+         {{.format = "{:.3f}",
            .terminal = TerminalView{.heading = "speed", .subheading = "m/s", .priority = 8},
            .report = ReportView{"speed"}}}},
         {"conveying_speed_half_width",
          "m/s",
          "Half-width of conveying_speed, for statistics and numerics together",
-         real([](Case c) { return speed(c, whole_half_width(c)); }),
+         Real([](Case c) { return speed(c, whole_half_width(c)); }),
          nothing,
-         {{.place = 150, .format = "{:.3f}", .position = 161}}},
+         {{.format = "{:.3f}"}}},
         {"mass_per_area", "kg/m2",
          "Mass of the layer per area of trough; of an open trough that in the window",
-         real([](Case c) { return measured_mass_per_area(c); })},
+         Real([](Case c) { return measured_mass_per_area(c); })},
         {"trough_width", "m",
          "Width of the real trough, as given or between the side walls; NaN when it is not known",
-         real([](Case c) { return trough_width(c.scenario); })},
+         Real([](Case c) { return trough_width(c.scenario); })},
+    };
+}
+
+std::vector<Quantity> flow_quantities() {
+    return {
         {"mass_flow",
          "kg/s",
          "Mass flow on the whole width of the trough, trough_width; NaN when that is not known",
-         real([](Case c) { return whole_flow(c, c.estimate.mean); }),
+         Real([](Case c) { return whole_flow(c, c.estimate.mean); }),
          nothing,
-         {{.place = 200,
-           .unit = "t/h",
+         {{.unit = "t/h",
            .factor = tonnes_per_hour,
            .format = "{:.3g}",
-           .position = 164,
            .terminal =
                TerminalView{
                    .heading = "mass flow", .subheading = "t/h", .priority = 8, .only_when_known = true},
            .report = ReportView{"mass flow"}},
-          {.place = 220}}},
+          {}}},
         {"mass_flow_half_width",
          "kg/s",
          "Half-width of mass_flow, for statistics and numerics together",
-         real([](Case c) { return whole_flow(c, whole_half_width(c)); }),
+         Real([](Case c) { return whole_flow(c, whole_half_width(c)); }),
          nothing,
-         {{.place = 210,
-           .unit = "t/h",
+         {{.unit = "t/h",
            .factor = tonnes_per_hour,
            .format = "{:.2g}",
-           .position = 165,
            .report = ReportView{"\u00b1 mass flow"}},
-          {.place = 230}}},
+          {}}},
         {"mass_flow_per_width",
          "kg s-1 m-1",
          "Mass flow per width of trough: conveying_speed times mass_per_area",
-         real([](Case c) { return mass_flow(c, c.estimate.mean); }),
+         Real([](Case c) { return mass_flow(c, c.estimate.mean); }),
          nothing,
-         {{.place = 240,
-           .unit = "t/h/m",
+         {{.unit = "t/h/m",
            .factor = tonnes_per_hour,
            .format = "{:.3g}",
-           .position = 166,
            .terminal =
                TerminalView{
                    .heading = "mass flow", .subheading = "t/h per m", .priority = 5, .only_when_known = true},
@@ -212,15 +221,15 @@ std::vector<Quantity> flow_quantities() {
         {"mass_flow_per_width_half_width",
          "kg s-1 m-1",
          "Half-width of mass_flow_per_width, for statistics and numerics together",
-         real([](Case c) { return mass_flow(c, whole_half_width(c)); }),
+         Real([](Case c) { return mass_flow(c, whole_half_width(c)); }),
          nothing,
-         {{.place = 250, .unit = "t/h/m", .factor = tonnes_per_hour}}},
+         {{.unit = "t/h/m", .factor = tonnes_per_hour}}},
         also_without_mean({"packings",
                            "1",
                            "Number of independent packings in the mean",
                            Integer([](Case c) { return c.estimate.packings; }),
                            nothing,
-                           {{.place = 370}}}),
+                           {{}}}),
     };
 }
 
@@ -235,45 +244,47 @@ std::optional<double> half_width_of(std::optional<measure::Branch> const& branch
 std::vector<Quantity> start_and_scatter_quantities() {
     return {
         {"efficiency_below", "1", "Mean efficiency of the packings that started below the expected speed",
-         real([](Case c) { return mean_of(c.estimate.below); })},
-        {"efficiency_below_half_width", "1", "Half-width of the confidence interval of efficiency_below",
-         real([](Case c) { return half_width_of(c.estimate.below); })},
+         Real([](Case c) { return mean_of(c.estimate.below); })},
+        {"efficiency_below_half_width_statistics", "1",
+         "Half-width of the confidence interval of efficiency_below",
+         Real([](Case c) { return half_width_of(c.estimate.below); })},
         {"efficiency_above", "1", "Mean efficiency of the packings that started above the expected speed",
-         real([](Case c) { return mean_of(c.estimate.above); })},
-        {"efficiency_above_half_width", "1", "Half-width of the confidence interval of efficiency_above",
-         real([](Case c) { return half_width_of(c.estimate.above); })},
+         Real([](Case c) { return mean_of(c.estimate.above); })},
+        {"efficiency_above_half_width_statistics", "1",
+         "Half-width of the confidence interval of efficiency_above",
+         Real([](Case c) { return half_width_of(c.estimate.above); })},
         {"packing_deviation", "1", "Standard deviation of the mean efficiency of one packing",
-         real([](Case c) { return c.estimate.deviation; })},
+         Real([](Case c) { return c.estimate.deviation; })},
         {"packing_deviation_within", "1",
          "The part of packing_deviation that the fluctuations within a run explain",
-         real([](Case c) { return c.estimate.deviation_within; })},
+         Real([](Case c) { return c.estimate.deviation_within; })},
         {"correlation_time", "1",
          "Statistical inefficiency g, pooled over the packings: so many cycles are worth one independent "
          "one",
-         real([](Case c) { return c.estimate.correlation_time; })},
+         Real([](Case c) { return c.estimate.correlation_time; })},
         {"half_width_wanted", "1", "Half-width of the interval that the campaign file asks for",
-         real([](Case c) { return c.scenario.measure.half_width; })},
+         Real([](Case c) { return c.scenario.measure.half_width; })},
     };
 }
 
 std::vector<Quantity> grain_and_layer_quantities() {
     return {
         {"grain_diameter", "m", "Diameter of the grains: mean, or median of the log-normal law",
-         real([](Case c) { return c.scenario.grains.diameter; })},
+         Real([](Case c) { return c.scenario.grains.diameter; })},
         {"grain_diameter_spread", "1", "Spread s of the size law",
-         real([](Case c) { return c.scenario.grains.diameter_spread; })},
+         Real([](Case c) { return c.scenario.grains.diameter_spread; })},
         {"grain_density", "kg/m3", "Density of the grains' material",
-         real([](Case c) { return c.scenario.grains.density; })},
+         Real([](Case c) { return c.scenario.grains.density; })},
         {"grain_youngs_modulus", "Pa", "Young's modulus of grains and trough",
-         real([](Case c) { return c.scenario.grains.youngs_modulus; })},
+         Real([](Case c) { return c.scenario.grains.youngs_modulus; })},
         {"grain_poisson_ratio", "1", "Poisson ratio of grains and trough",
-         real([](Case c) { return c.scenario.grains.poisson_ratio; })},
+         Real([](Case c) { return c.scenario.grains.poisson_ratio; })},
         {"grain_friction", "1", "Friction coefficient, grain on grain",
-         real([](Case c) { return c.scenario.grains.friction; })},
+         Real([](Case c) { return c.scenario.grains.friction; })},
         {"grain_restitution", "1", "Restitution coefficient, grain on grain, nominal",
-         real([](Case c) { return c.scenario.grains.restitution; })},
+         Real([](Case c) { return c.scenario.grains.restitution; })},
         {"grain_rolling_friction", "1", "Rolling friction coefficient, 0 when the model is off",
-         real([](Case c) { return c.scenario.grains.rolling_friction; })},
+         Real([](Case c) { return c.scenario.grains.rolling_friction; })},
         {"grain_rotation", "1", "free, rolling or blocked",
          Text([](Case c) { return std::string(name_of(c.scenario.grains.rotation)); })},
         {"grain_shape", "1", "sphere, cube, rod, or the name of the file with the spheres of a clump",
@@ -283,76 +294,70 @@ std::vector<Quantity> grain_and_layer_quantities() {
         {"block", "1", "none, or the rigid block in place of the layer: point or plate",
          Text([](Case c) { return std::string(name_of(c.scenario.layer.block)); })},
         {"side_wall_friction", "1", "Friction coefficient, grain on side walls; NaN without side walls",
-         real([](Case c) { return c.scenario.trough.side_wall_friction; })},
+         Real([](Case c) { return c.scenario.trough.side_wall_friction; })},
         {"rayleigh_fraction", "1", "Largest time step in Rayleigh times of the smallest grain",
-         real([](Case c) { return c.scenario.solver.rayleigh_fraction; })},
+         Real([](Case c) { return c.scenario.solver.rayleigh_fraction; })},
         {"contact_model", "1", "Normal force of the contacts: hertz or hooke",
          Text([](Case c) { return std::string(name_of(c.scenario.engine.contact)); })},
         {"cohesion", "J/m3", "Energy density of the cohesion model sjkr, 0 when the model is off",
-         real([](Case c) { return c.scenario.engine.cohesion; })},
+         Real([](Case c) { return c.scenario.engine.cohesion; })},
         {"not_covered", "1",
          "What the case asks for under [engine] and the engine's certificate does not cover; empty: "
          "nothing",
          Text([](Case c) { return not_covered(c.scenario.engine); })},
         {"layer_length", "m", "Length of the periodic piece of layer along the trough",
-         real([](Case c) { return c.scenario.layer.length; })},
+         Real([](Case c) { return c.scenario.layer.length; })},
         {"layer_width", "m", "Width of the periodic piece of layer across the trough",
-         real([](Case c) { return c.scenario.layer.width; })},
+         Real([](Case c) { return c.scenario.layer.width; })},
         {"layer_height", "m",
          "Height of the layer at rest as asked for; NaN when the number of grains was given",
-         real([](Case c) { return c.scenario.layer.height; })},
+         Real([](Case c) { return c.scenario.layer.height; })},
         {"layer_grains", "1", "Number of grains", Integer([](Case c) { return c.scenario.layer.grains; })},
     };
 }
 
 std::vector<Quantity> run_quantities() {
     return {
-        {"seed", "1", "Seed of the packing's random positions",
-         packing_field([](auto& p) -> auto& { return p.seed; })},
+        {"seed", "1", "Seed of the packing's random positions", field(&PackingRecord::seed)},
         {"steps_per_cycle", "1", "Time steps of the engine per cycle",
-         packing_field([](auto& p) -> auto& { return p.steps_per_cycle; })},
-        {"time_step", "s", "Time step of the engine",
-         packing_field([](auto& p) -> auto& { return p.time_step; })},
-        {"mass", "kg", "Mass of all grains", packing_field([](auto& p) -> auto& { return p.mass; })},
-        also_without_mean(
-            {"wall_time",
-             "s",
-             "Wall time of the engine",
-             packing_field([](auto& p) -> auto& { return p.wall_time; }),
-             sum,
-             {{.place = 400, .format = "{:.0f}", .position = 190, .report = ReportView{"wall time"}}}}),
+         field(&PackingRecord::steps_per_cycle)},
+        {"time_step", "s", "Time step of the engine", field(&PackingRecord::time_step)},
+        {"mass", "kg", "Mass of all grains", field(&PackingRecord::mass)},
+        also_without_mean({"wall_time",
+                           "s",
+                           "Wall time of the engine",
+                           field(&PackingRecord::wall_time),
+                           sum,
+                           {{.format = "{:.0f}", .report = ReportView{"wall time"}}}}),
         {"efficiency", "1", "Velocity efficiency eta, mean over the cycles kept",
-         packing_field([](auto& p) -> auto& { return p.estimate.mean; })},
-        {"efficiency_half_width", "1",
+         estimate(&measure::PackingEstimate::mean)},
+        {"efficiency_half_width_statistics", "1",
          "Half-width of the confidence interval of efficiency, corrected for correlation between cycles",
-         packing_field([](auto& p) -> auto& { return p.estimate.half_width; })},
-        {"core_time", "s", "Processor time of the engine on all ranks",
-         packing_field([](auto& p) -> auto& { return p.core_time; }), sum},
+         estimate(&measure::PackingEstimate::half_width)},
+        {"core_time", "s", "Processor time of the engine on all ranks", field(&PackingRecord::core_time),
+         sum},
         {"start_efficiency", "1", "Velocity efficiency with which all grains started; NaN: at rest",
-         packing_field([](auto& p) -> auto& { return p.start_efficiency; })},
+         field(&PackingRecord::start_efficiency)},
         also_without_mean({"cycles_discarded",
                            "1",
                            "Cycles cut as start-up, the same for all packings (pooled MSER)",
-                           packing_field([](auto& p) -> auto& { return p.estimate.discarded; }),
+                           estimate(&measure::PackingEstimate::discarded),
                            sum,
-                           {{.place = 390, .position = 180, .report = ReportView{"discarded"}}}}),
+                           {{.report = ReportView{"discarded"}}}}),
         also_without_mean(
             {"cycles_measured",
              "1",
              "Cycles kept for the mean",
-             packing_field([](auto& p) -> auto& { return p.estimate.measured; }),
+             estimate(&measure::PackingEstimate::measured),
              sum,
-             {{.place = 380,
-               .position = 170,
-               .terminal = TerminalView{.heading = "cycles", .subheading = "cut+kept", .priority = 2},
+             {{.terminal = TerminalView{.heading = "cycles", .subheading = "cut+kept", .priority = 2},
                .report = ReportView{"cycles kept"}}}}),
         {"correlation_time", "1",
          "Statistical inefficiency g: that many cycles are worth one independent cycle",
-         packing_field([](auto& p) -> auto& { return p.estimate.correlation_time; })},
+         estimate(&measure::PackingEstimate::correlation_time)},
         {"verdict", "1", "How well the mean is known: precise, not-precise or not-steady",
-         packing_field([](auto& p) -> auto& { return p.estimate.verdict; })},
-        {"deck", "1", "The LIGGGHTS deck, in.liggghts",
-         packing_field([](auto& p) -> auto& { return p.deck; })},
+         estimate(&measure::PackingEstimate::verdict)},
+        {"deck", "1", "The LIGGGHTS deck, in.liggghts", field(&PackingRecord::deck)},
     };
 }
 
@@ -362,9 +367,10 @@ std::vector<Quantity> const& quantities() {
     static std::vector<Quantity> const all = [] {
         std::vector<Quantity> rows;
         for (auto const& part :
-             {drive_quantities(), efficiency_quantities(), flow_quantities(), run_quantities(),
-              start_and_scatter_quantities(), grain_and_layer_quantities(), layer_quantities(),
-              material_quantities(), open_quantities(), screen_quantities(), stage_quantities()})
+             {drive_quantities(), efficiency_quantities(), numerics_quantities(), speed_quantities(),
+              flow_quantities(), run_quantities(), start_and_scatter_quantities(),
+              grain_and_layer_quantities(), layer_quantities(), material_quantities(), open_quantities(),
+              screen_quantities(), stage_quantities()})
             rows.insert(rows.end(), part.begin(), part.end());
         return rows;
     }();

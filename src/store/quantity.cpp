@@ -47,8 +47,8 @@ CaseNumber combined(CaseRecord const& record, Field<PackingRecord, Value> const&
 
 CaseNumber Quantity::of_case(CaseRecord const& record) const {
     return std::visit(
-        [&](auto const& way) -> CaseNumber {
-            if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(way)>>)
+        [&]<typename Way>(Way const& way) -> CaseNumber {
+            if constexpr (std::is_invocable_v<Way, CaseRecord const&>)
                 return way(record);
             else
                 return combined(record, way, over_packings);
@@ -70,15 +70,31 @@ std::string Quantity::meaning_of_case() const {
     return text;
 }
 
-std::optional<double> mean_over_packings(CaseRecord const& record,
-                                         Field<PackingRecord, std::optional<double>> const& number) {
+std::optional<double> mean_over_packings(CaseRecord const& record, MeasuredNumber const& number) {
     return combined(known_values(record.packings, number), OverPackings::mean);
 }
 
-std::optional<double> half_width_over_packings(CaseRecord const& record,
-                                               Field<PackingRecord, std::optional<double>> const& number) {
+std::optional<double> half_width_over_packings(CaseRecord const& record, MeasuredNumber const& number) {
     return measure::student_half_width(known_values(record.packings, number),
                                        record.scenario.measure.confidence);
+}
+
+void add_measured(std::vector<Quantity>& rows, MeasuredNumber const& number, MeasuredNames const& names,
+                  std::string_view units, std::string_view meaning, View const& view) {
+    View narrow{.unit = view.unit, .factor = view.factor, .format = view.format};
+    if (view.terminal)
+        narrow.terminal =
+            TerminalView{.heading = "+-", .priority = view.terminal->priority, .only_when_known = true};
+    if (view.report) narrow.report = ReportView{"\u00b1"};
+    rows.push_back({names.name, units, meaning, number, OverPackings::mean, {view}, true});
+    rows.push_back(
+        {names.half_width,
+         units,
+         "Half-width of the interval of the number before it, Student's t over the packings",
+         Quantity::Real([number](CaseRecord const& one) { return half_width_over_packings(one, number); }),
+         OverPackings::nothing,
+         {narrow},
+         true});
 }
 
 }  // namespace vibrotrough::store

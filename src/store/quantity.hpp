@@ -2,7 +2,7 @@
 
 #include "store/case_record.hpp"
 
-#include <concepts>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,16 +17,16 @@
 
 namespace vibrotrough::store {
 
-/// The way to one field of a record. The same entry of the schema reads the field of a record that is written
+/// The way to one field of a record. The same row of the schema reads the field of a record that is written
 /// to a file and fills the field of a record that is read back.
 template <typename Record, typename Value>
 class Field {
   public:
-    /// Takes a lambda without captures: [](auto& record) -> auto& { return record.part.field; }
+    /// Takes a function of a record that may be constant or not: [](auto& record) -> auto& { ... }
     template <typename Path>
-    requires std::is_empty_v<Path> && std::default_initializable<Path> Field(Path)
-        : read_([](Record const& record) -> Value const& { return Path{}(record); }),
-          change_([](Record& record) -> Value& { return Path{}(record); }) {}
+    explicit Field(Path path)
+        : read_([path](Record const& record) -> Value const& { return path(record); }),
+          change_([path](Record& record) -> Value& { return path(record); }) {}
 
     /// The field of a record that is read.
     Value const& operator()(Record const& record) const { return read_(record); }
@@ -34,27 +34,19 @@ class Field {
     Value& operator()(Record& record) const { return change_(record); }
 
   private:
-    Value const& (*read_)(Record const&);
-    Value& (*change_)(Record&);
+    std::function<Value const&(Record const&)> read_;
+    std::function<Value&(Record&)> change_;
 };
 
-/// The field that a path leads to, with the type that it has in the record.
-template <typename Record, typename Path>
-auto field_of(Path path) {
-    return Field<Record, std::remove_reference_t<decltype(path(std::declval<Record&>()))>>(path);
+/// The field that pointers to members lead to: one of the record, one of that member, and so on.
+template <typename Record, typename Member, typename... Rest>
+auto field(Member Record::*first, Rest... rest) {
+    using Value = std::remove_reference_t<decltype(((std::declval<Record&>().*first).*....*rest))>;
+    return Field<Record, Value>([=](auto& record) -> auto& { return ((record.*first).*....*rest); });
 }
 
-/// A field of a case's record.
-template <typename Path>
-auto case_field(Path path) {
-    return field_of<CaseRecord>(path);
-}
-
-/// A field of a packing's record.
-template <typename Path>
-auto packing_field(Path path) {
-    return field_of<PackingRecord>(path);
-}
+/// A number of a packing that does not always exist.
+using MeasuredNumber = Field<PackingRecord, std::optional<double>>;
 
 /// How the terminal's table shows a column.
 struct TerminalView {
@@ -79,15 +71,11 @@ struct ReportView {
 
 /// One column of `compare`, and so of JSON, CSV, the VTK table and, where it says so, of tables for people.
 struct View {
-    int place = behind_all;                     ///< among the columns of JSON and CSV
     std::string_view unit = "";                 ///< empty: that of the quantity
     double factor = 1;                          ///< of the values in this unit against those of the quantity
     std::string_view format = "{}";             ///< of a value in tables for people, for both fmt and Python
-    int position = 0;                           ///< in tables for people, counted from the left
     std::optional<TerminalView> terminal = {};  ///< none: not in the terminal's table
     std::optional<ReportView> report = {};      ///< none: not in the report's table
-
-    static constexpr int behind_all = 2000;  ///< the place of columns that are added
 };
 
 /// How the value of a case follows from the values of its packings. The mean and the largest are taken over
@@ -105,11 +93,13 @@ using CaseNumber = std::variant<int, std::optional<double>, std::string>;
 /// One number or word of a result: `case/<name>` or `packings/<name>` of result.h5 or both, a column of
 /// campaign.h5, and the columns of `compare` that its views describe.
 struct Quantity {
+    using Integer = std::function<int(CaseRecord const&)>;
+    using Real = std::function<std::optional<double>(CaseRecord const&)>;
+    using Text = std::function<std::string(CaseRecord const&)>;
     /// Computes the value of a case from its record, or leads to the value of a packing in its record.
-    using Of = std::variant<int (*)(CaseRecord const&), std::optional<double> (*)(CaseRecord const&),
-                            std::string (*)(CaseRecord const&), Field<PackingRecord, int>,
-                            Field<PackingRecord, double>, Field<PackingRecord, std::optional<double>>,
-                            Field<PackingRecord, std::string>, Field<PackingRecord, measure::Verdict>>;
+    using Of = std::variant<Integer, Real, Text, Field<PackingRecord, int>, Field<PackingRecord, double>,
+                            MeasuredNumber, Field<PackingRecord, std::string>,
+                            Field<PackingRecord, measure::Verdict>>;
 
     std::string_view name;     ///< the same wherever it is; columns of text files add their unit
     std::string_view units;    ///< in the spelling of udunits2; "1" for pure numbers and texts
@@ -118,7 +108,6 @@ struct Quantity {
     OverPackings over_packings = OverPackings::nothing;  ///< what is made of the values of packings
     std::vector<View> views = {};                        ///< its columns in `compare`
     bool known_without_mean = false;  ///< `compare` shows it also of a case that has no mean
-    bool may_be_missing = false;      ///< files that were written before it was added do not have it
 
     /// Whether each packing has a value.
     bool is_of_packings() const { return of.index() >= 3; }
@@ -140,18 +129,31 @@ std::vector<Quantity> const& quantities();
 template <typename Function>
 void for_packings(Quantity const& quantity, Function const& function) {
     std::visit(
-        [&](auto const& way) {
-            if constexpr (!std::is_pointer_v<std::remove_cvref_t<decltype(way)>>) function(way);
+        [&]<typename Way>(Way const& way) {
+            if constexpr (!std::is_invocable_v<Way, CaseRecord const&>) function(way);
         },
         quantity.of);
 }
 
 /// The mean over the packings that have this number; none when no packing has it.
-std::optional<double> mean_over_packings(CaseRecord const& record,
-                                         Field<PackingRecord, std::optional<double>> const& number);
+std::optional<double> mean_over_packings(CaseRecord const& record, MeasuredNumber const& number);
 
 /// Half-width of Student's interval of that mean at measure.confidence; none with fewer than two values.
-std::optional<double> half_width_over_packings(CaseRecord const& record,
-                                               Field<PackingRecord, std::optional<double>> const& number);
+std::optional<double> half_width_over_packings(CaseRecord const& record, MeasuredNumber const& number);
+
+/// The names of a number of the packings and of the half-width of its interval.
+struct MeasuredNames {
+    std::string_view name, half_width;
+};
+
+/// Adds a number of the packings and the half-width of its interval, with one column each.
+/// @param view  of the number; that of the half-width has the same unit
+void add_measured(std::vector<Quantity>& rows, MeasuredNumber const& number, MeasuredNames const& names,
+                  std::string_view units, std::string_view meaning, View const& view);
+
+/// A column of the terminal's table that is left out when no case has a value.
+constexpr TerminalView terminal_when_known(std::string_view heading, std::string_view subheading = "") {
+    return {.heading = heading, .subheading = subheading, .priority = 4, .only_when_known = true};
+}
 
 }  // namespace vibrotrough::store

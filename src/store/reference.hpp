@@ -11,7 +11,7 @@ struct NameInFile {
     std::string name;        ///< with the group or table before it
     std::string_view type;   ///< float64, int32 or text
     std::string_view shape;  ///< scalar, or what there is one value of
-    std::string_view units;  ///< in the spelling of udunits2; "1" for pure numbers and texts
+    std::string units;       ///< in the spelling of udunits2; "1" for pure numbers and texts
     std::string meaning;     ///< for people; the attribute `description`
 };
 
@@ -24,9 +24,9 @@ std::vector<NameInFile> names_in_campaign();
 /// The names of both files as tables in Markdown: the reference that `vibrotrough quantities` prints.
 std::string file_reference();
 
-/// A name of version 0.2.0, and the one that took its place.
+/// A name of an older version, and the one that took its place.
 struct OldName {
-    std::string_view old;   ///< in files and scripts of version 0.2.0
+    std::string_view old;   ///< in files and scripts of older versions
     std::string_view name;  ///< now
 };
 

@@ -4,14 +4,9 @@
 #include "core/error.hpp"
 #include "core/note.hpp"
 #include "core/version.hpp"
-#include "measure/reaction.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "store/hdf5_file.hpp"
-#include "store/material_flow_tables.hpp"
-#include "store/open_quantities.hpp"
 #include "store/schema.hpp"
-#include "store/screen_quantities.hpp"
-#include "store/stage_quantities.hpp"
 
 #include <map>
 #include <span>
@@ -58,18 +53,9 @@ std::string packing_path(std::string_view group, std::size_t packing) {
     return fmt::format("{}/{}", group, packing + 1);
 }
 
-std::string_view group_of(PackingSeries const& series) {
-    return series.length == SeriesLength::cycle_ends ? "cycle_ends" : "series";
-}
-
-std::string_view group_of(PackingTable const& table) {
-    return table.group;
-}
-
 /// Reads one quantity of all packings.
 void read_column(Hdf5Table const& table, Quantity const& quantity, std::vector<PackingRecord>& packings) {
     std::string const name(quantity.name);
-    if (quantity.may_be_missing && !table.has(name)) return;
     for_packings(quantity, [&](auto const& field) {
         using Stored = decltype(to_stored(field(packings.front())));
         auto const values = table.values<Stored>(name);
@@ -83,26 +69,15 @@ void read_packings(Tables const& tables, std::vector<PackingRecord>& packings) {
     for (Quantity const& quantity : quantities()) read_column(table, quantity, packings);
 }
 
-/// Reads the columns of all tables of a packing.
-template <typename Entries>
-void read_tables(Tables const& tables, std::size_t number, PackingRecord& packing, Entries const& entries) {
-    for (auto const& entry : entries) {
-        Hdf5Table const& table = find(tables, packing_path(group_of(entry), number));
-        entry.field(packing) = table.values<double>(std::string(entry.entry.name));
+/// Reads the tables of a packing. A column that is not there is empty.
+void read_tables(Tables const& tables, std::size_t number, scenario::Scenario const& scenario,
+                 PackingRecord& packing) {
+    for (PackingTable const& one : packing_tables()) {
+        if (!one.is_of(scenario)) continue;
+        Hdf5Table const& table = find(tables, packing_path(one.name, number));
+        for (PackingColumn const& column : one.columns)
+            if (table.has(column.entry.name)) column.field(packing) = table.values<double>(column.entry.name);
     }
-}
-
-std::span<PackingTable const> tables_of_materials(scenario::Scenario const& scenario) {
-    return material_tables(scenario.materials.size() + 1, is_open(scenario));
-}
-
-/// The tables of the packings on a screen. A batch has a time.
-std::vector<std::vector<PackingTable> const*> tables_of_screen(scenario::Scenario const& scenario) {
-    std::vector<std::vector<PackingTable> const*> tables;
-    if (is_screen(scenario)) tables.push_back(&size_tables());
-    if (scenario.screen.time) tables.push_back(&batch_tables());
-    if (is_fed_screen(scenario)) tables.push_back(&fed_screen_tables());
-    return tables;
 }
 
 void check_series(PackingRecord const& packing, std::size_t number) {
@@ -116,7 +91,7 @@ measure::CaseEstimate read_case_values(Tables const& tables) {
     if (table.rows() != 1) throw Hdf5Error("use the table case, it has not one row");
     measure::CaseEstimate estimate{};
     from_stored(table.values<double>("efficiency").front(), estimate.mean);
-    from_stored(table.values<double>("efficiency_half_width").front(), estimate.half_width);
+    from_stored(table.values<double>("efficiency_half_width_statistics").front(), estimate.half_width);
     estimate.packings = table.values<int>("packings").front();
     auto const number = [&](char const* name) {
         std::optional<double> value;
@@ -128,23 +103,26 @@ measure::CaseEstimate read_case_values(Tables const& tables) {
     estimate.correlation_time = number("correlation_time").value_or(1);
     int const below = (estimate.packings + 1) / 2;  // odd numbers
     if (auto const mean = number("efficiency_below"))
-        estimate.below = measure::Branch{*mean, number("efficiency_below_half_width"), below};
+        estimate.below = measure::Branch{*mean, number("efficiency_below_half_width_statistics"), below};
     if (auto const mean = number("efficiency_above")) {
-        estimate.above =
-            measure::Branch{*mean, number("efficiency_above_half_width"), estimate.packings - below};
+        estimate.above = measure::Branch{*mean, number("efficiency_above_half_width_statistics"),
+                                         estimate.packings - below};
     }
     return estimate;
 }
 
-template <typename Entries>
-void add_tables(Hdf5Writer& file, std::size_t number, PackingRecord const& packing, Entries const& entries) {
-    std::vector<std::pair<std::string_view, std::vector<Hdf5Column>>> tables;
-    for (auto const& entry : entries) {
-        if (tables.empty() || tables.back().first != group_of(entry)) tables.push_back({group_of(entry), {}});
-        auto const& [name, units, meaning] = entry.entry;
-        tables.back().second.push_back({name, units, meaning, entry.field(packing)});
+void add_tables(Hdf5Writer& file, std::size_t number, scenario::Scenario const& scenario,
+                PackingRecord const& packing) {
+    for (PackingTable const& one : packing_tables()) {
+        if (!one.is_of(scenario)) continue;
+        std::size_t rows = 0;
+        for (PackingColumn const& column : one.columns) rows = std::max(rows, column.field(packing).size());
+        std::vector<Hdf5Column> columns;
+        for (auto const& [entry, field] : one.columns)
+            if (rows == 0 || !field(packing).empty())
+                columns.push_back({entry.name, entry.units, entry.meaning, field(packing)});
+        file.table(packing_path(one.name, number), columns);
     }
-    for (auto const& [group, columns] : tables) file.table(packing_path(group, number), columns);
 }
 
 /// The quantities of the table `case`, with meanings that last as long as the program.
@@ -158,7 +136,7 @@ std::vector<std::pair<Quantity const*, std::string>> const& case_columns() {
     return columns;
 }
 
-std::vector<Hdf5Column> case_table(CaseRecord const& record) {
+std::vector<Hdf5Column> row_of_case(CaseRecord const& record) {
     std::vector<Hdf5Column> columns;
     for (auto const& [one, meaning] : case_columns())
         columns.push_back({one->name, one->units, meaning, stored_values(*one, std::span(&record, 1))});
@@ -199,38 +177,26 @@ void check_kind(Hdf5Reader const& file, std::filesystem::path const& path) {
 CaseRecord read_record(Hdf5Reader const& reader, std::filesystem::path const& path) {
     CaseRecord record{};
     for (CaseFact const& fact : case_facts()) {
-        std::string const text = reader.text(std::string(fact.entry.name));
+        std::string const text = reader.text(fact.entry.name);
         std::visit([&](auto const& field) { from_stored(text, field(record)); }, fact.field);
     }
     Tables const file = reader.read_all();
     auto const text = [&file](Entry const& entry) {
-        return find(file, std::string(entry.name)).values<std::string>("").at(0);
+        return find(file, entry.name).values<std::string>("").at(0);
     };
-    record.scenario_toml = text(scenario_entry());
-    record.provenance.engine_certificate = text(certificate_entry());
+    record.scenario_toml = text(scenario_entry);
+    record.provenance.engine_certificate = text(certificate_entry);
     record.estimate = read_case_values(file);
     read_packings(file, record.packings);
-    for (std::size_t i = 0; i < record.packings.size(); ++i) {
-        read_tables(file, i, record.packings[i], packing_series());
-        read_tables(file, i, record.packings[i], packing_tables());
-        check_series(record.packings[i], i);
-    }
     scenario::FileSource source;
-    auto const files = core::note::parse(text(scenario_files_entry()));
+    auto const files = core::note::parse(text(scenario_files_entry));
     for (auto const& [name, content] : files.items())
         source.files.push_back({name, core::note::text(files, name)});
     record.scenario =
         scenario::parse_campaign(record.scenario_toml, path.string() + ":/scenario", source).cases.front();
-    for (std::size_t i = 0; i < record.packings.size(); ++i)
-        read_tables(file, i, record.packings[i], tables_of_materials(record.scenario));
-    for (std::size_t i = 0; is_open(record.scenario) && i < record.packings.size(); ++i)
-        read_tables(file, i, record.packings[i], open_tables(record.scenario.trough.mesh != nullptr));
-    for (auto const* const tables : tables_of_screen(record.scenario))
-        for (std::size_t i = 0; i < record.packings.size(); ++i)
-            read_tables(file, i, record.packings[i], *tables);
-    for (PackingRecord& packing : record.packings) {  // older files do not have the reaction, but its curves
-        if (!packing.motion.added_mass)
-            measure::add_reaction(packing.motion, record.scenario.trough.frequency);
+    for (std::size_t i = 0; i < record.packings.size(); ++i) {
+        read_tables(file, i, record.scenario, record.packings[i]);
+        check_series(record.packings[i], i);
     }
     return record;
 }
@@ -243,19 +209,19 @@ std::string files_as_json(scenario::Scenario const& scenario) {
     return files.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// A table that follows from the packings; none when it has no columns.
-void add_case_table(Hdf5Writer& file, std::string const& name, std::vector<Entry> const& entries,
-                    std::vector<CaseValues> const& values) {
+/// A table that follows from the packings, if the case has it.
+void add_case_table(Hdf5Writer& file, CaseTable const& table, CaseRecord const& record) {
+    std::vector<CaseValues> const values = table.values(record);
     std::vector<Hdf5Column> columns;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        Entry const& entry = entries[i];
+        Entry const& entry = table.columns[i];
         std::visit(
             [&](auto const& list) {
                 columns.push_back({entry.name, entry.units, entry.meaning, list});
             },
             values[i]);
     }
-    if (!columns.empty()) file.table(name, columns);
+    if (!columns.empty()) file.table(std::string(table.name), columns);
 }
 
 void fill_result(Hdf5Writer& file, CaseRecord const& record) {
@@ -263,44 +229,20 @@ void fill_result(Hdf5Writer& file, CaseRecord const& record) {
     file.attribute("schema_version", result_schema_version);
     file.attribute("campaign", record.scenario.campaign);
     for (CaseFact const& fact : case_facts()) {
-        std::visit(
-            [&](auto const& field) {
-                file.attribute(std::string(fact.entry.name), to_stored(field(record)));
-            },
-            fact.field);
+        std::visit([&](auto const& field) { file.attribute(fact.entry.name, to_stored(field(record))); },
+                   fact.field);
     }
     auto const put = [&file](Entry const& entry, std::string const& text) {
-        file.dataset(std::string(entry.name), std::vector<std::string>{text}, entry.units, entry.meaning);
+        file.dataset(entry.name, std::vector<std::string>{text}, entry.units, entry.meaning);
     };
-    put(scenario_entry(), record.scenario_toml);
-    put(certificate_entry(), record.provenance.engine_certificate);
-    put(scenario_files_entry(), files_as_json(record.scenario));
-    file.table("case", case_table(record));
+    put(scenario_entry, record.scenario_toml);
+    put(certificate_entry, record.provenance.engine_certificate);
+    put(scenario_files_entry, files_as_json(record.scenario));
+    file.table("case", row_of_case(record));
     file.table("packings", packings_table(record));
-    measure::MassFlow const flow = mass_flow_of(record);
-    std::vector<Hdf5Column> columns;
-    for (auto const& [entry, field] : mass_flow_columns())
-        columns.push_back({entry.name, entry.units, entry.meaning, flow.*field});
-    file.table("mass_flow", columns);
-    add_case_table(file, "materials", materials_entries(), materials_table(record));
-    add_case_table(file, "materials_along", materials_along_entries(), materials_along_table(record));
-    add_case_table(file, "segregation", segregation_entries(), segregation_table(record));
-    add_case_table(file, "stages", stages_entries(), stages_table(record));
-    add_case_table(file, "stage_cycles", stage_cycles_entries(), stage_cycles_table(record));
-    add_case_table(file, "partition", partition_entries(), partition_table(record));
-    add_case_table(file, "screening", screening_entries(), screening_table(record));
-    add_case_table(file, "partition_cycles", partition_cycles_entries(), partition_cycles_table(record));
-    add_case_table(file, "along_trough", along_trough_entries(), along_trough_table(record));
-    add_case_table(file, "residence_times", residence_times_entries(), residence_times_table(record));
-    for (std::size_t i = 0; i < record.packings.size(); ++i) {
-        add_tables(file, i, record.packings[i], packing_series());
-        add_tables(file, i, record.packings[i], packing_tables());
-        add_tables(file, i, record.packings[i], tables_of_materials(record.scenario));
-        if (is_open(record.scenario))
-            add_tables(file, i, record.packings[i], open_tables(record.scenario.trough.mesh != nullptr));
-        for (auto const* const tables : tables_of_screen(record.scenario))
-            add_tables(file, i, record.packings[i], *tables);
-    }
+    for (CaseTable const& table : case_tables()) add_case_table(file, table, record);
+    for (std::size_t i = 0; i < record.packings.size(); ++i)
+        add_tables(file, i, record.scenario, record.packings[i]);
 }
 
 std::string names_of(scenario::SweptKeys const& swept) {
@@ -329,12 +271,12 @@ void fill_campaign(Hdf5Writer& file, CampaignContent const& content) {
     file.attribute("git_commit", std::string(core::program_commit()));
     file.attribute("swept_keys", names_of(swept));
     auto const put = [&file](Entry const& entry, Values const& values, std::string const& group = "") {
-        file.dataset(group + std::string(entry.name), values, entry.units, entry.meaning);
+        file.dataset(group + entry.name, values, entry.units, entry.meaning);
     };
     for (CaseFact const& fact : case_facts())
         std::visit([&](auto const& field) { put(fact.entry, stored_values(cases, field)); }, fact.field);
     for (auto const& [one, meaning] : case_columns())
-        put({one->name, one->units, meaning}, stored_values(*one, cases));
+        put({std::string(one->name), std::string(one->units), meaning}, stored_values(*one, cases));
     for (scenario::Key const* const key : swept) put(swept_entry(*key), swept_values(*key, cases), "swept/");
     add_observables(file, cases, observables);
 }

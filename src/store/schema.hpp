@@ -1,26 +1,25 @@
 #pragma once
 
-#include "measure/mass_flow.hpp"
+#include "measure/stage_means.hpp"
 #include "scenario/reader/keys.hpp"
 #include "store/quantity.hpp"
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 /// @file
-/// The table of everything in the store's files: beside the quantities the facts of a case, its series and
-/// its tables. `vibrotrough quantities` prints it, and a test compares it with files that were written.
+/// The table of everything in the store's files: beside the quantities the facts of a case, and the tables of
+/// a case and of its packings. Files are written and read by it, and `vibrotrough quantities` prints it.
 
 namespace vibrotrough::store {
 
-/// The description of a dataset or field. Its type follows from its value.
+/// The description of a dataset or of a column of a table. Its type follows from its value.
 struct Entry {
-    std::string_view name;     ///< of the dataset or field
-    std::string_view units;    ///< "1" for pure numbers and texts
-    std::string_view meaning;  ///< for people; the attribute `description`
+    std::string name;     ///< of the dataset or column
+    std::string units;    ///< "1" for pure numbers and texts
+    std::string meaning;  ///< for people; the attribute `description`
 };
 
 /// A text that identifies a case or tells where it was made: a root attribute of result.h5, a column of
@@ -31,63 +30,89 @@ struct CaseFact {
     std::variant<Field<CaseRecord, std::string>, Field<CaseRecord, core::Outcome>> field;
 };
 
-/// The length of a series of n cycles.
-enum class SeriesLength {
-    cycles,      ///< one value per cycle 1 ... n
-    cycle_ends,  ///< one value per end of cycle 0 ... n
-};
-
-/// One series of a packing: `series/<packing>/<name>` of result.h5, packings counted from 1.
-struct PackingSeries {
-    Entry entry;                                      ///< its description
-    SeriesLength length;                              ///< its number of values
-    Field<PackingRecord, std::vector<double>> field;  ///< its place in the record
-};
-
-/// One column of a table of a packing: `<group>/<packing>/<name>` of result.h5. All columns of a group have
-/// the same length.
-struct PackingTable {
-    std::string_view group;                           ///< of columns with the same length
-    Entry entry;                                      ///< its description
-    Field<PackingRecord, std::vector<double>> field;  ///< its place in the record
-};
-
-/// One column of the table `mass_flow` of a case: `mass_flow/<name>` of result.h5. It follows from the
-/// packings, so that it is written and not read.
-struct MassFlowColumn {
-    Entry entry;                                    ///< its description
-    std::vector<double> measure::MassFlow::*field;  ///< its place in the mass flow
-};
-
 /// All facts of a case, in the order of the files.
 std::vector<CaseFact> const& case_facts();
-/// All series of a packing.
-std::vector<PackingSeries> const& packing_series();
-/// All columns of the tables of a packing.
+
+/// A column of a table of a packing.
+struct PackingColumn {
+    Entry entry;                                      ///< its description
+    Field<PackingRecord, std::vector<double>> field;  ///< its place in the record
+};
+
+/// A table of each packing: `<name>/<packing>` of result.h5, packings counted from 1. A column that is empty
+/// while others have rows, such as that of a material that the case does not have, is not in the file.
+struct PackingTable {
+    std::string_view name;                     ///< of the group
+    std::string_view rows;                     ///< what there is a row of
+    bool (*is_of)(scenario::Scenario const&);  ///< whether a case has it
+    std::vector<PackingColumn> columns;        ///< in the order of the file
+};
+
+/// All tables of a packing.
 std::vector<PackingTable> const& packing_tables();
-/// The columns of the table `mass_flow`.
-std::vector<MassFlowColumn> const& mass_flow_columns();
 
-/// The mass flow over depth of a case, from the profiles of its packings.
-measure::MassFlow mass_flow_of(CaseRecord const& record);
+/// The values of a column of a table of the case.
+using CaseValues = std::variant<std::vector<double>, std::vector<std::string>>;
 
-/// The frozen scenario as TOML, dataset `scenario` of result.h5.
-Entry scenario_entry();
+/// A table of a case that follows from its packings: it is written and not read.
+struct CaseTable {
+    std::string_view name;       ///< of the dataset
+    std::string_view rows;       ///< what there is a row of
+    std::vector<Entry> columns;  ///< their descriptions
+    /// The values of its first columns; none when the case does not have the table.
+    std::vector<CaseValues> (*values)(CaseRecord const&);
+    std::string_view text = "";  ///< the column that holds texts
+};
 
-/// The certificate of the engine binary as JSON, dataset `engine_certificate` of result.h5.
-Entry certificate_entry();
+/// All of them.
+std::vector<CaseTable> const& case_tables();
 
-/// The files that the scenario names, as a JSON object of names and contents, dataset `scenario_files`.
-Entry scenario_files_entry();
+/// The table of the case with this name.
+CaseTable const& case_table(std::string_view name);
+
+/// Adds the description of a number that is a mean over the packings, and that of its half-width.
+void add_measured(std::vector<Entry>& entries, Entry const& entry);
+
+/// Mean and half-width over the packings of a number that each row of a table has.
+class MeasuredColumn {
+  public:
+    /// A column without rows, whose intervals have this level.
+    explicit MeasuredColumn(double confidence) : confidence_(confidence) {}
+
+    /// The next row: the number of each packing.
+    void add(measure::EnsembleNumber const& value) {
+        means.push_back(value.mean());
+        half_widths.push_back(value.half_width(confidence_));
+    }
+    /// Adds the means, and behind them the half-widths, to the columns of a table.
+    void put_into(std::vector<CaseValues>& columns) const {
+        columns.emplace_back(means);
+        columns.emplace_back(half_widths);
+    }
+
+    std::vector<double> means = {};        ///< over the packings, row by row
+    std::vector<double> half_widths = {};  ///< of their intervals; NaN with one packing
+
+  private:
+    double confidence_;
+};
+
+/// Mean and half-width of each row of a column, over the packings that have a number there.
+MeasuredColumn over_packings(CaseRecord const& record,
+                             Field<PackingRecord, std::vector<double>> const& column, std::size_t rows);
+
+/// The texts of a case that are datasets of result.h5: the frozen scenario as TOML, the certificate of the
+/// engine binary as JSON, and the files that the scenario names, as a JSON object of names and contents.
+inline Entry const scenario_entry{"scenario", "1",
+                                  "The scenario as a campaign file of one case (TOML, SI units)"};
+inline Entry const certificate_entry{
+    "engine_certificate", "1",
+    "Certificate of the engine binary (JSON): what its probes showed; empty when it was not probed"};
+inline Entry const scenario_files_entry{
+    "scenario_files", "1", "The files that the scenario names: a JSON object of names and contents"};
 
 /// The values of a swept key, a dataset `swept/<key>` of campaign.h5. Angles are in rad.
 Entry swept_entry(scenario::Key const& key);
-
-/// "precise", "not-precise" or "not-steady".
-std::string verdict_name(measure::Verdict verdict);
-
-/// The verdict of a name. @throws Hdf5Error when there is no such verdict
-measure::Verdict verdict_of(std::string const& name);
 
 /// The value in the form of the files.
 int to_stored(int value);

@@ -1,7 +1,6 @@
 #include "store/screen_quantities.hpp"
 
 #include "prepare/screen.hpp"
-#include "store/measured_quantity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,9 +23,8 @@ bool has_batch(Case record) {
     return has_screen(record) && record.scenario.screen.time.has_value();
 }
 
-template <std::optional<double> Screening::*member>
-MeasuredNumber screening_number() {
-    return packing_field([](auto& packing) -> auto& { return packing.screening.*member; });
+MeasuredNumber screening(std::optional<double> Screening::*member) {
+    return field(&PackingRecord::screening, member);
 }
 
 /// Cycles that all packings have.
@@ -111,48 +109,7 @@ double half_time_of(Case record, Screening const& screening, std::size_t size) {
     return measure::half_time(curve, period_of(record)).value_or(not_known);
 }
 
-constexpr auto low_end = "Lower end of this interval, at least 0, because a share is; NaN with one packing";
-constexpr auto high_end = "Upper end of this interval, at most 1; NaN with one packing";
-constexpr auto interval_over_packings =
-    "Half-width of its interval at measure.confidence, Student's t over the packings; "
-    "NaN with one packing";
-
-}  // namespace
-
-std::vector<Entry> const& partition_entries() {
-    static std::vector<Entry> const entries{
-        {"diameter", "m", "Diameter of the grains of one size, from the smallest; only of screens"},
-        {"relative_diameter", "1", "The same over the opening; infinite without holes"},
-        {"number", "1",
-         "Grains of this size in a packing at first; with a feed, in the first packing those that passed or "
-         "left over the edge in the cycles that count"},
-        {"stays", "1",
-         "Share of them that is on the screen at the end, with a feed that left over the edge, mean over the "
-         "packings"},
-        {"stays_half_width", "1", interval_over_packings},
-        {"stays_low", "1", low_end},
-        {"stays_high", "1", high_end},
-        {"probability", "1",
-         "Probability p = ((a - d) / (a + w))^2 that a grain passes at one attempt (Gaudin 1939): of a "
-         "sphere of "
-         "diameter d that falls straight on a screen with the opening a and the bars w"},
-        {"stays_by_model", "1",
-         "Share that stays with one attempt in each of n cycles: (1 - p)^n; with a feed n is the time that "
-         "the "
-         "layer needs along the holes over the period"},
-        {"attempts", "1",
-         "Attempts per cycle with which the model leaves the share that was measured: ln(stays) / (n ln(1 - "
-         "p)); "
-         "NaN where none or all of a size can pass or have passed"},
-        {"half_time", "s",
-         "Time until half of this size has passed, mean over the packings; NaN when it has not in one of "
-         "them"},
-        {"half_time_half_width", "s", interval_over_packings},
-    };
-    return entries;
-}
-
-std::vector<CaseValues> partition_table(Case record) {
+std::vector<CaseValues> partition_values(Case record) {
     if (!has_screen(record)) return {};
     Screening const& first = record.packings.front().screening;
     double const confidence = record.scenario.measure.confidence;
@@ -180,31 +137,7 @@ std::vector<CaseValues> partition_table(Case record) {
     return columns;
 }
 
-std::vector<Entry> const& screening_entries() {
-    static std::vector<Entry> const entries{
-        {"time", "s", "End of cycle 0 ... n; only of screens"},
-        {"distance", "m",
-         "How far the layer on the screen was conveyed until then, mean over the packings: the length of "
-         "screen "
-         "that the time stands for"},
-        {"distance_half_width", "m", interval_over_packings},
-        {"held_share", "1", "Mass on the screen over that at first, mean over the packings"},
-        {"held_share_half_width", "1", interval_over_packings},
-        {"efficiency", "1",
-         "Efficiency of screening: mass of undersize (grains smaller than the opening) that passed until "
-         "then over "
-         "that at first, mean over the packings; NaN without undersize"},
-        {"efficiency_half_width", "1", interval_over_packings},
-        {"conveying_speed", "m/s",
-         "Speed of the layer on the screen along it in the cycle that ends, mean over the packings; NaN in "
-         "the "
-         "first row"},
-        {"conveying_speed_half_width", "m/s", interval_over_packings},
-    };
-    return entries;
-}
-
-std::vector<CaseValues> screening_table(Case record) {
+std::vector<CaseValues> screening_values(Case record) {
     if (!has_batch(record)) return {};
     double const confidence = record.scenario.measure.confidence;
     MeasuredColumn distance(confidence), held(confidence), efficiency(confidence), speed(confidence);
@@ -234,20 +167,7 @@ std::vector<CaseValues> screening_table(Case record) {
     return columns;
 }
 
-std::vector<Entry> const& partition_cycles_entries() {
-    static std::vector<Entry> const entries{
-        {"diameter", "m", "Diameter of the grains of one size, from the smallest; only of screens"},
-        {"time", "s", "End of cycle 0 ... n"},
-        {"stays", "1",
-         "Share of the grains of this size that is still on the screen, mean over the packings"},
-        {"stays_half_width", "1", interval_over_packings},
-        {"stays_low", "1", low_end},
-        {"stays_high", "1", high_end},
-    };
-    return entries;
-}
-
-std::vector<CaseValues> partition_cycles_table(Case record) {
+std::vector<CaseValues> partition_cycles_values(Case record) {
     if (!has_batch(record)) return {};
     MeasuredShare stays(record.scenario.measure.confidence);
     std::vector<double> diameters, times;
@@ -269,17 +189,170 @@ std::vector<CaseValues> partition_cycles_table(Case record) {
     return columns;
 }
 
+void add_share(std::vector<Entry>& entries, std::string const& meaning) {
+    add_measured(entries, {"stays", "1", meaning});
+    entries.push_back({"stays_low", "1",
+                       "Lower end of this interval, at least 0, because a share is; NaN with one packing"});
+    entries.push_back({"stays_high", "1", "Upper end of this interval, at most 1; NaN with one packing"});
+}
+
+CaseTable partition_table() {
+    std::vector<Entry> entries{
+        {"diameter", "m", "Diameter of the grains of one size, from the smallest; only of screens"},
+        {"relative_diameter", "1", "The same over the opening; infinite without holes"},
+        {"number", "1",
+         "Grains of this size in a packing at first; with a feed, in the first packing those that passed or "
+         "left over the edge in the cycles that count"}};
+    add_share(
+        entries,
+        "Share of them that is on the screen at the end, with a feed that left over the edge, mean over "
+        "the packings");
+    entries.push_back(
+        {"probability", "1",
+         "Probability p = ((a - d) / (a + w))^2 that a grain passes at one attempt (Gaudin 1939): "
+         "of a sphere of diameter d that falls straight on a screen with the opening a and the "
+         "bars w"});
+    entries.push_back(
+        {"stays_by_model", "1",
+         "Share that stays with one attempt in each of n cycles: (1 - p)^n; with a feed n is the "
+         "time that the layer needs along the holes over the period"});
+    entries.push_back(
+        {"attempts", "1",
+         "Attempts per cycle with which the model leaves the share that was measured: ln(stays) / "
+         "(n ln(1 - p)); NaN where none or all of a size can pass or have passed"});
+    add_measured(entries, {"half_time", "s",
+                           "Time until half of this size has passed, mean over the packings; NaN when it has "
+                           "not in one of them"});
+    return {"partition", "sizes", entries, partition_values};
+}
+
+CaseTable screening_table() {
+    std::vector<Entry> entries{{"time", "s", "End of cycle 0 ... n; only of screens"}};
+    add_measured(entries, {"distance", "m",
+                           "How far the layer on the screen was conveyed until then, mean over the packings: "
+                           "the length of screen that the time stands for"});
+    add_measured(entries,
+                 {"held_share", "1", "Mass on the screen over that at first, mean over the packings"});
+    add_measured(entries,
+                 {"efficiency", "1",
+                  "Efficiency of screening: mass of undersize (grains smaller than the opening) that "
+                  "passed until then over that at first, mean over the packings; NaN without "
+                  "undersize"});
+    add_measured(entries, {"conveying_speed", "m/s",
+                           "Speed of the layer on the screen along it in the cycle that ends, mean over the "
+                           "packings; NaN in the first row"});
+    return {"screening", "cycles + 1", entries, screening_values};
+}
+
+CaseTable partition_cycles_table() {
+    std::vector<Entry> entries{
+        {"diameter", "m", "Diameter of the grains of one size, from the smallest; only of screens"},
+        {"time", "s", "End of cycle 0 ... n"}};
+    add_share(entries,
+              "Share of the grains of this size that is still on the screen, mean over the packings");
+    return {"partition_cycles", "sizes * (cycles + 1)", entries, partition_cycles_values};
+}
+
+bool is_batch(scenario::Scenario const& s) {
+    return s.screen.time.has_value();
+}
+
+auto at_end_of_cycle(std::vector<double> measure::OpenSeries::*member) {
+    return field(&PackingRecord::series, &measure::CycleSeries::open, member);
+}
+
+auto size(std::vector<double> Screening::*member) {
+    return field(&PackingRecord::screening, member);
+}
+
+auto size_in_cycle(std::vector<double> measure::SizeTable::*member) {
+    return field(&PackingRecord::screening, &Screening::by_size, member);
+}
+
+PackingTable sizes_table() {
+    return {"sizes",
+            "sizes",
+            scenario::is_screen,
+            {{{"diameter", "m", "Diameter of the grains of one size, from the smallest; only of screens"},
+              size(&Screening::diameter)},
+             {{"number", "1",
+               "Grains of this size at first; with a feed, that passed the screen or left over its edge in "
+               "the cycles that count"},
+              size(&Screening::number)},
+             {{"mass", "kg", "Mass of one of them"}, size(&Screening::mass)},
+             {{"passed", "1", "How many of them passed the screen"}, size(&Screening::passed)}}};
+}
+
+std::vector<PackingTable> batch_tables() {
+    return {
+        {"screen",
+         "cycles + 1",
+         is_batch,
+         {{{"passed", "1", "Grains that passed the screen in the cycle that ends; only of screens"},
+           at_end_of_cycle(&measure::OpenSeries::left)},
+          {{"passed_mass", "kg", "Their mass"}, at_end_of_cycle(&measure::OpenSeries::left_mass)},
+          {{"held", "1", "Grains on the screen at the end of cycle 0 ... n"},
+           at_end_of_cycle(&measure::OpenSeries::held)},
+          {{"held_mass", "kg", "Their mass"}, at_end_of_cycle(&measure::OpenSeries::held_mass)},
+          {{"layer_mass", "kg",
+            "Mass of the layer whose speed is measured, mean over the cycle: grains with their centres above "
+            "the screen"},
+           at_end_of_cycle(&measure::OpenSeries::window_mass)}}},
+        {"passed",
+         "grains",
+         is_batch,
+         {{{"cycle", "1", "Cycle in which a grain passed the screen, from 1; only of screens"},
+           size(&Screening::passed_cycle)},
+          {{"diameter", "m", "Its diameter"}, size(&Screening::passed_diameter)}}},
+    };
+}
+
+std::vector<PackingTable> fed_screen_tables() {
+    using Sizes = measure::SizeTable;
+    return {
+        {"through",
+         "cycles + 1",
+         scenario::is_fed_screen,
+         {{{"passed", "1",
+            "Grains that passed the screen in the cycle that ends; only of screens with a feed"},
+           at_end_of_cycle(&measure::OpenSeries::passed)},
+          {{"passed_mass", "kg", "Their mass"}, at_end_of_cycle(&measure::OpenSeries::passed_mass)}}},
+        {"size_cycles",
+         "sizes * (cycles + 1)",
+         scenario::is_fed_screen,
+         {{{"diameter", "m", "Diameter of the grains of one size; only of screens with a feed"},
+           size_in_cycle(&Sizes::diameter)},
+          {{"cycle", "1", "Number of the cycle, 0 ... n, of each size"}, size_in_cycle(&Sizes::cycle)},
+          {{"fed", "1", "Grains of this size that were fed until its end"}, size_in_cycle(&Sizes::fed)},
+          {{"held", "1", "Those that are on the screen then"}, size_in_cycle(&Sizes::held)},
+          {{"left", "1", "Those that left over the edge in the cycle"}, size_in_cycle(&Sizes::left)},
+          {{"passed", "1", "Those that passed the screen in the cycle"}, size_in_cycle(&Sizes::passed)}}},
+    };
+}
+
+}  // namespace
+
+std::vector<PackingTable> screen_tables() {
+    std::vector<PackingTable> tables{sizes_table()};
+    for (auto const& part : {batch_tables(), fed_screen_tables()})
+        tables.insert(tables.end(), part.begin(), part.end());
+    return tables;
+}
+
+std::vector<CaseTable> screen_case_tables() {
+    return {partition_table(), screening_table(), partition_cycles_table()};
+}
+
 std::vector<Quantity> screen_quantities() {
     std::vector<Quantity> rows;
-    add_measured<&screening_number<&Screening::efficiency>>(
-        rows, "screening_efficiency", "screening_efficiency_half_width", "1",
+    add_measured(
+        rows, screening(&Screening::efficiency), {"screening_efficiency", "screening_efficiency_half_width"},
+        "1",
         "Efficiency of screening: mass of undersize (grains smaller than the opening) that passed the screen "
         "until the end over that at first; with a feed, over all undersize that passed or left over the "
         "edge; "
         "NaN without a screen",
-        {.place = 1100,
-         .format = "{:.3f}",
-         .position = 290,
+        {.format = "{:.3f}",
          .terminal = terminal_when_known("screening", "efficiency"),
          .report = ReportView{"screening efficiency"}});
     rows.push_back(
@@ -288,56 +361,44 @@ std::vector<Quantity> screen_quantities() {
          "The same by Gaudin's probability with one attempt in each cycle, see the table partition",
          &efficiency_by_model,
          OverPackings::nothing,
-         {{.place = 1104,
-           .format = "{:.3f}",
-           .position = 292,
+         {{.format = "{:.3f}",
            .terminal = terminal_when_known("by", "model"),
            .report = ReportView{"by model"}}}});
-    add_measured<&screening_number<&Screening::passed_share>>(
-        rows, "passed_share", "passed_share_half_width", "1",
-        "Mass that passed the screen over that at first; with a feed, over all that passed or left",
-        {.place = 1106, .format = "{:.3f}", .position = 294, .report = ReportView{"passed"}});
-    add_measured<&screening_number<&Screening::undersize>>(
-        rows, "undersize_share", "undersize_share_half_width", "1",
+    add_measured(rows, screening(&Screening::passed_share), {"passed_share", "passed_share_half_width"}, "1",
+                 "Mass that passed the screen over that at first; with a feed, over all that passed or left",
+                 {.format = "{:.3f}", .report = ReportView{"passed"}});
+    add_measured(
+        rows, screening(&Screening::undersize), {"undersize_share", "undersize_share_half_width"}, "1",
         "Mass share of undersize in what is still on the screen at the end, with a feed in what left over "
         "the "
         "edge; NaN when all have passed",
-        {.place = 1110,
-         .format = "{:.3f}",
-         .position = 296,
+        {.format = "{:.3f}",
          .terminal = terminal_when_known("undersize", "in oversize"),
          .report = ReportView{"undersize in oversize"}});
-    add_measured<&screening_number<&Screening::cut_size>>(
-        rows, "cut_size", "cut_size_half_width", "m",
+    add_measured(
+        rows, screening(&Screening::cut_size), {"cut_size", "cut_size_half_width"}, "m",
         "d50 of the partition curve, the size of which half of the grains stay, on straight lines between "
         "the "
         "sizes; NaN when half or more of every size stay, or less than half of the largest",
-        {.place = 1114,
-         .unit = "mm",
+        {.unit = "mm",
          .factor = 1000,
          .format = "{:.3f}",
-         .position = 298,
          .terminal = terminal_when_known("d50", "mm"),
          .report = ReportView{"d50"}});
-    add_measured<&screening_number<&Screening::distance>>(
-        rows, "screen_distance", "screen_distance_half_width", "m",
+    add_measured(
+        rows, screening(&Screening::distance), {"screen_distance", "screen_distance_half_width"}, "m",
         "How far the layer on the screen was conveyed: the length of screen that these numbers stand for",
-        {.place = 1118,
-         .format = "{:.3f}",
-         .position = 300,
+        {.format = "{:.3f}",
          .terminal = terminal_when_known("screen", "m"),
          .report = ReportView{"length of screen"}});
-    add_measured<&screening_number<&Screening::underflow>>(
-        rows, "underflow", "underflow_half_width", "kg/s",
-        "Mass flow through a screen with a feed; outflow is that over its edge",
-        {.place = 1122,
-         .unit = "t/h",
-         .factor = tonnes_per_hour,
-         .format = "{:.4g}",
-         .position = 302,
-         .terminal = terminal_when_known("through", "t/h"),
-         .report = ReportView{"through the screen"}});
-    for (Quantity& row : rows) row.may_be_missing = row.known_without_mean = true;
+    add_measured(rows, screening(&Screening::underflow), {"underflow", "underflow_half_width"}, "kg/s",
+                 "Mass flow through a screen with a feed; outflow is that over its edge",
+                 {.unit = "t/h",
+                  .factor = tonnes_per_hour,
+                  .format = "{:.4g}",
+                  .terminal = terminal_when_known("through", "t/h"),
+                  .report = ReportView{"through the screen"}});
+    for (Quantity& row : rows) row.known_without_mean = true;
     return rows;
 }
 

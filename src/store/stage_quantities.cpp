@@ -1,7 +1,6 @@
 #include "store/stage_quantities.hpp"
 
 #include "measure/stage_means.hpp"
-#include "store/measured_quantity.hpp"
 
 #include <cmath>
 #include <optional>
@@ -80,82 +79,14 @@ double held_after(measure::OpenSeries const& open, Stage const& stage) {
 }
 
 /// Mean and half-width of a number for each stage.
-void add_measured(std::vector<CaseValues>& columns, std::vector<measure::StageMeans> const& means,
-                  measure::EnsembleNumber measure::StageMeans::*number, double confidence) {
+void add_values(std::vector<CaseValues>& columns, std::vector<measure::StageMeans> const& means,
+                measure::EnsembleNumber measure::StageMeans::*number, double confidence) {
     MeasuredColumn measured(confidence);
     for (measure::StageMeans const& one : means) measured.add(one.*number);
     measured.put_into(columns);
 }
 
-using OptionalNumber = Field<PackingRecord, std::optional<double>>;
-
-OptionalNumber stage_speed() {
-    return packing_field([](auto& packing) -> auto& { return packing.stage_speed; });
-}
-
-OptionalNumber time_to_speed() {
-    return packing_field([](auto& packing) -> auto& { return packing.time_to_speed; });
-}
-
-OptionalNumber stopping_distance() {
-    return packing_field([](auto& packing) -> auto& { return packing.stopping_distance; });
-}
-
-/// The columns of a number with its half-width in tables for people.
-View shown(int place, std::string_view heading, std::string_view format) {
-    return {.place = place,
-            .format = format,
-            .position = place - 650,
-            .terminal = TerminalView{.heading = heading, .priority = 4, .only_when_known = true},
-            .report = ReportView{heading}};
-}
-
-}  // namespace
-
-std::vector<Entry> const& stages_entries() {
-    constexpr auto width =
-        "Half-width of its interval at measure.confidence, Student's t over the packings; "
-        "NaN with one packing";
-    static std::vector<Entry> const entries{
-        {"start", "s", "When the stage begins; only of drives with stages"},
-        {"time", "s", "How long it is, with its ramp"},
-        {"first_cycle", "1", "Number of its first cycle, from 1"},
-        {"cycles", "1", "Number of its cycles, with its ramp"},
-        {"ramp_cycles", "1", "Number of cycles of its ramp"},
-        {"standstill", "1", "1 when the trough stands still, else 0"},
-        {"throw_number", "1", "Throw number Gamma behind the ramp; 0 at a standstill"},
-        {"frequency", "Hz", "Frequency behind the ramp; at a standstill that of the stage before"},
-        {"amplitude", "m", "Amplitude r behind the ramp; 0 at a standstill"},
-        {"conveying_speed", "m/s",
-         "Mean velocity of the layer along the trough over the second half of the cycles behind the ramp, "
-         "mean over the packings; in an open trough that in the window, 0 while it is empty; NaN without "
-         "such "
-         "cycles"},
-        {"conveying_speed_half_width", "m/s", width},
-        {"speed_change", "m/s",
-         "Mean velocity in the second half of these cycles less that in the first: not 0 while the speed is "
-         "not steady"},
-        {"speed_change_half_width", "m/s", width},
-        {"distance", "m",
-         "Displacement of the layer along the trough in the whole stage; at a standstill the distance in "
-         "which "
-         "it stops"},
-        {"distance_half_width", "m", width},
-        {"time_to_speed", "s",
-         "Time from the start of the stage until the mean of the packings has gone 95 % of the way from the "
-         "speed before to `conveying_speed`; NaN when the two do not differ"},
-        {"time_to_speed_half_width", "s", "Half-width of its interval, by the jackknife over the packings"},
-        {"fed_mass", "kg", "What was fed in the stage; only of open troughs"},
-        {"fed_mass_half_width", "kg", width},
-        {"left_mass", "kg", "What left the trough in the stage; at a standstill what still runs out"},
-        {"left_mass_half_width", "kg", width},
-        {"held_mass", "kg", "What the trough holds at the end of the stage"},
-        {"held_mass_half_width", "kg", width},
-    };
-    return entries;
-}
-
-std::vector<CaseValues> stages_table(Case record) {
+std::vector<CaseValues> stages_values(Case record) {
     if (record.scenario.stages.empty()) return {};
     std::vector<Stage> const all = stages(record.scenario);
     auto const moving = [](Stage const& stage, double value) { return stage.standstill ? 0 : value; };
@@ -175,7 +106,7 @@ std::vector<CaseValues> stages_table(Case record) {
     double const confidence = record.scenario.measure.confidence;
     for (auto const number : {&measure::StageMeans::speed, &measure::StageMeans::change,
                               &measure::StageMeans::distance, &measure::StageMeans::time_to_speed})
-        add_measured(columns, means, number, confidence);
+        add_values(columns, means, number, confidence);
     if (!is_open(record.scenario)) return columns;
     for (auto const of : {fed_in, left_in, held_after}) {
         MeasuredColumn measured(confidence);
@@ -190,20 +121,7 @@ std::vector<CaseValues> stages_table(Case record) {
     return columns;
 }
 
-std::vector<Entry> const& stage_cycles_entries() {
-    static std::vector<Entry> const entries{
-        {"time", "s", "Middle of the cycle after the start of the run; only of drives with stages"},
-        {"stage", "1", "Number of its stage, from 1"},
-        {"conveying_speed", "m/s",
-         "Mean velocity of the layer along the trough in the cycle, mean over the packings"},
-        {"conveying_speed_half_width", "m/s",
-         "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one "
-         "packing"},
-    };
-    return entries;
-}
-
-std::vector<CaseValues> stage_cycles_table(Case record) {
+std::vector<CaseValues> stage_cycles_values(Case record) {
     if (!has_stages(record)) return {};
     std::vector<Stage> const all = stages(record.scenario);
     measure::StagedVelocities const velocities = velocities_of(record, all);
@@ -224,6 +142,62 @@ std::vector<CaseValues> stage_cycles_table(Case record) {
     return columns;
 }
 
+CaseTable stages_table() {
+    std::vector<Entry> entries{
+        {"start", "s", "When the stage begins; only of drives with stages"},
+        {"time", "s", "How long it is, with its ramp"},
+        {"first_cycle", "1", "Number of its first cycle, from 1"},
+        {"cycles", "1", "Number of its cycles, with its ramp"},
+        {"ramp_cycles", "1", "Number of cycles of its ramp"},
+        {"standstill", "1", "1 when the trough stands still, else 0"},
+        {"throw_number", "1", "Throw number Gamma behind the ramp; 0 at a standstill"},
+        {"frequency", "Hz", "Frequency behind the ramp; at a standstill that of the stage before"},
+        {"amplitude", "m", "Amplitude r behind the ramp; 0 at a standstill"},
+    };
+    add_measured(entries, {"conveying_speed", "m/s",
+                           "Mean velocity of the layer along the trough over the second half of the cycles "
+                           "behind the ramp, mean over the packings; in an open trough that in the window, 0 "
+                           "while it is empty; NaN without such cycles"});
+    add_measured(entries, {"speed_change", "m/s",
+                           "Mean velocity in the second half of these cycles less that in the first: not 0 "
+                           "while the speed is not steady"});
+    add_measured(entries,
+                 {"distance", "m",
+                  "Displacement of the layer along the trough in the whole stage; at a standstill the "
+                  "distance in which it stops"});
+    add_measured(entries,
+                 {"time_to_speed", "s",
+                  "Time from the start of the stage until the mean of the packings has gone 95 % of "
+                  "the way from the speed before to `conveying_speed`; NaN when the two do not differ"});
+    entries.back().meaning = "Half-width of its interval, by the jackknife over the packings";
+    add_measured(entries, {"fed_mass", "kg", "What was fed in the stage; only of open troughs"});
+    add_measured(entries, {"left_mass", "kg",
+                           "What left the trough in the stage; at a standstill what still runs out"});
+    add_measured(entries, {"held_mass", "kg", "What the trough holds at the end of the stage"});
+    return {"stages", "stages", entries, stages_values};
+}
+
+CaseTable stage_cycles_table() {
+    std::vector<Entry> entries{
+        {"time", "s", "Middle of the cycle after the start of the run; only of drives with stages"},
+        {"stage", "1", "Number of its stage, from 1"}};
+    add_measured(entries,
+                 {"conveying_speed", "m/s",
+                  "Mean velocity of the layer along the trough in the cycle, mean over the packings"});
+    return {"stage_cycles", "cycles", entries, stage_cycles_values};
+}
+
+/// A column of a number in tables for people.
+View shown(std::string_view heading, std::string_view format) {
+    return {.format = format, .terminal = terminal_when_known(heading), .report = ReportView{heading}};
+}
+
+}  // namespace
+
+std::vector<CaseTable> stages_case_tables() {
+    return {stages_table(), stage_cycles_table()};
+}
+
 void add_stages(CaseRecord& record) {
     if (!has_stages(record)) return;
     std::vector<Stage> const all = stages(record.scenario);
@@ -238,50 +212,23 @@ void add_stages(CaseRecord& record) {
 }
 
 std::vector<Quantity> stage_quantities() {
-    std::vector<Quantity> rows{
-        {"stage_speed",
-         "m/s",
-         "Speed of the layer at the end of the last stage of the drive in which the trough moves, see the "
-         "table "
-         "stages; NaN without stages",
-         stage_speed(),
-         OverPackings::mean,
-         {shown(972, "stage speed", "{:.4f}")}},
-        {"stage_speed_half_width",
-         "m/s",
-         "Half-width of the interval of stage_speed, Student's t over the packings",
-         +[](Case c) { return half_width_over_packings(c, stage_speed()); },
-         OverPackings::nothing,
-         {shown(976, "+-", "{:.4f}")}},
-        {"time_to_speed",
-         "s",
-         "Time in this stage until the mean of the packings has gone 95 % of the way to that speed; of a "
-         "packing its pseudo-value (jackknife); NaN without stages",
-         time_to_speed(),
-         OverPackings::mean,
-         {shown(980, "time to speed", "{:.3f}")}},
-        {"time_to_speed_half_width",
-         "s",
-         "Half-width of the interval of time_to_speed, by the jackknife over the packings",
-         +[](Case c) { return half_width_over_packings(c, time_to_speed()); },
-         OverPackings::nothing,
-         {shown(984, "+-", "{:.3f}")}},
-        {"stopping_distance",
-         "m",
-         "Displacement of the layer along the trough in the last stage in which the trough stands still, "
-         "with "
-         "its ramp; NaN without one",
-         stopping_distance(),
-         OverPackings::mean,
-         {shown(988, "stopping distance", "{:.5f}")}},
-        {"stopping_distance_half_width",
-         "m",
-         "Half-width of the interval of stopping_distance, Student's t over the packings",
-         +[](Case c) { return half_width_over_packings(c, stopping_distance()); },
-         OverPackings::nothing,
-         {shown(992, "+-", "{:.5f}")}},
-    };
-    for (Quantity& row : rows) row.may_be_missing = row.known_without_mean = true;
+    std::vector<Quantity> rows;
+    add_measured(
+        rows, field(&PackingRecord::stage_speed), {"stage_speed", "stage_speed_half_width"}, "m/s",
+        "Speed of the layer at the end of the last stage of the drive in which the trough moves, see "
+        "the table stages; NaN without stages",
+        shown("stage speed", "{:.4f}"));
+    add_measured(
+        rows, field(&PackingRecord::time_to_speed), {"time_to_speed", "time_to_speed_half_width"}, "s",
+        "Time in this stage until the mean of the packings has gone 95 % of the way to that speed; of "
+        "a packing its pseudo-value (jackknife); NaN without stages",
+        shown("time to speed", "{:.3f}"));
+    rows.back().meaning = "Half-width of the interval of time_to_speed, by the jackknife over the packings";
+    add_measured(rows, field(&PackingRecord::stopping_distance),
+                 {"stopping_distance", "stopping_distance_half_width"}, "m",
+                 "Displacement of the layer along the trough in the last stage in which the trough stands "
+                 "still, with its ramp; NaN without one",
+                 shown("stopping distance", "{:.5f}"));
     return rows;
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "store/material_quantities.hpp"
-#include "store/quantity.hpp"
 #include "store/schema.hpp"
 
 #include <vector>
@@ -11,15 +9,9 @@
 
 namespace vibrotrough::store {
 
-/// The columns of the table `stages`: one row for each stage.
-std::vector<Entry> const& stages_entries();
-/// Their values; none when the drive has no stages, and without packings only those of the drive.
-std::vector<CaseValues> stages_table(CaseRecord const& record);
-
-/// The columns of the table `stage_cycles`: one row for each cycle of the stages.
-std::vector<Entry> const& stage_cycles_entries();
-/// Their values; none when the drive has no stages.
-std::vector<CaseValues> stage_cycles_table(CaseRecord const& record);
+/// The tables of the case: each stage, of which without packings only the drive is known, and each cycle of
+/// the stages.
+std::vector<CaseTable> stages_case_tables();
 
 /// Fills in what the packings of a case with stages have in their records beside their cycles.
 void add_stages(CaseRecord& record);

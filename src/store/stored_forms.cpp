@@ -6,6 +6,9 @@
 
 namespace vibrotrough::store {
 
+namespace {
+
+/// "precise", "not-precise" or "not-steady".
 std::string verdict_name(measure::Verdict verdict) {
     switch (verdict) {
         case measure::Verdict::precise:
@@ -25,6 +28,8 @@ measure::Verdict verdict_of(std::string const& name) {
     }
     throw Hdf5Error("use the verdict '" + name + "', it is unknown");
 }
+
+}  // namespace
 
 int to_stored(int value) {
     return value;

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "store/hdf5_file.hpp"
 #include "store/schema.hpp"
 
 #include <algorithm>
@@ -21,23 +22,14 @@ std::string digest_of(std::span<std::uint8_t const> bytes) {
     return core::sha256_hex({reinterpret_cast<char const*>(bytes.data()), bytes.size()});
 }
 
-Json to_json(int value) {
-    return value;
-}
-Json to_json(double value) {
-    return value;
-}
-Json to_json(std::optional<double> const& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
-Json to_json(std::string const& value) {
-    return Json::binary({value.begin(), value.end()});  // texts of other machines need not be UTF-8
-}
-Json to_json(measure::Verdict value) {
-    return static_cast<int>(value);
-}
-Json to_json(core::Outcome value) {
-    return std::string(name_of(value));
+/// A value in the form of the files; texts are bytes, because those of other machines need not be UTF-8.
+template <typename Value>
+Json to_json(Value const& value) {
+    auto const stored = to_stored(value);
+    if constexpr (std::is_same_v<decltype(stored), std::string const>)
+        return Json::binary({stored.begin(), stored.end()});
+    else
+        return stored;
 }
 
 Json to_json(std::optional<measure::Branch> const& branch) {
@@ -45,15 +37,17 @@ Json to_json(std::optional<measure::Branch> const& branch) {
     return Json::array({branch->mean, to_json(branch->half_width), branch->packings});
 }
 
-void from_json(Json const& json, int& value) {
-    value = json.get<int>();
+template <typename Value>
+void from_json(Json const& json, Value& value) {
+    using Stored = decltype(to_stored(value));
+    if constexpr (std::is_same_v<Stored, std::string>) {
+        auto const& bytes = json.get_binary();
+        from_stored(std::string(bytes.begin(), bytes.end()), value);
+    } else {
+        from_stored(json.get<Stored>(), value);
+    }
 }
-void from_json(Json const& json, double& value) {
-    value = json.get<double>();
-}
-void from_json(Json const& json, std::optional<double>& value) {
-    value = json.is_null() ? std::nullopt : std::optional(json.get<double>());
-}
+
 void from_json(Json const& json, std::optional<measure::Branch>& branch) {
     branch.reset();
     if (json.is_null()) return;
@@ -61,21 +55,6 @@ void from_json(Json const& json, std::optional<measure::Branch>& branch) {
     from_json(json.at(0), branch->mean);
     from_json(json.at(1), branch->half_width);
     from_json(json.at(2), branch->packings);
-}
-void from_json(Json const& json, std::string& value) {
-    auto const& bytes = json.get_binary();
-    value.assign(bytes.begin(), bytes.end());
-}
-void from_json(Json const& json, core::Outcome& value) {
-    auto const outcome = core::outcome_named(json.get<std::string>());
-    if (!outcome) throw core::InputError("a summary of a result holds an unknown outcome");
-    value = *outcome;
-}
-void from_json(Json const& json, measure::Verdict& value) {
-    int const number = json.get<int>();
-    if (number < 0 || number > static_cast<int>(measure::Verdict::not_steady))
-        throw core::InputError("a summary of a result holds an unknown verdict");
-    value = static_cast<measure::Verdict>(number);
 }
 
 /// Applies a function to the pointer to each member of an estimate that a summary holds.
@@ -169,6 +148,8 @@ CaseRecord unpack_summary(std::span<std::uint8_t const> bytes, scenario::Scenari
     try {
         return record_from(Json::from_cbor(cbor.begin(), cbor.end()), scenario);
     } catch (Json::exception const& error) {
+        throw core::InputError(fmt::format("a summary of a result is damaged ({})", error.what()));
+    } catch (Hdf5Error const& error) {
         throw core::InputError(fmt::format("a summary of a result is damaged ({})", error.what()));
     }
 }

@@ -6,9 +6,7 @@
 #include "store/theory_map.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,36 +15,6 @@ namespace vibrotrough::store {
 namespace {
 
 constexpr std::uintmax_t largest_file = std::uintmax_t{2} << 30;
-
-/// A column of the answers. `number` is null for a column of texts.
-struct AnswerColumn {
-    char const* name;
-    char const* description;
-    std::string (*text)(theory::Efficiency const&);
-    double (*number)(theory::Efficiency const&);
-};
-
-bool is_converged(theory::Efficiency const& a) {
-    return a.outcome == theory::Outcome::periodic;
-}
-
-using Point = theory::Efficiency;
-constexpr std::array<AnswerColumn, 5> answer_columns{{
-    {"velocity_efficiency", "Velocity efficiency eta; infinite where the mass runs away",
-     [](Point const& a) { return fmt::format("{}", a.velocity_efficiency); },
-     [](Point const& a) { return a.velocity_efficiency; }},
-    {"half_width", "Half-width of eta at 95 % confidence; 0 when periodic",
-     [](Point const& a) { return fmt::format("{}", a.half_width); },
-     [](Point const& a) { return a.half_width; }},
-    {"mode", "Phases of the motion in order", [](Point const& a) { return theory::to_string(a.mode); },
-     nullptr},
-    {"period_cycles", "Cycles after which the motion repeats; 0 when it does not",
-     [](Point const& a) { return std::to_string(a.period_cycles); },
-     [](Point const& a) { return double(a.period_cycles); }},
-    {"converged", "1 when the periodic motion was found, else 0",
-     [](Point const& a) { return fmt::format("{}", is_converged(a)); },
-     [](Point const& a) { return is_converged(a) ? 1.0 : 0.0; }},
-}};
 
 using theory::InputColumn;
 
@@ -83,15 +51,46 @@ void check_columns(std::vector<InputColumn> const& columns, core::CsvReader cons
     }
 }
 
-/// m/s; nothing when a point has no amplitude.
-std::optional<double> speed(theory::Inputs const& point, theory::Efficiency const& answer) {
-    auto const scale = point.velocity_scale();
-    if (!scale) return {};
-    return answer.velocity_efficiency * *scale;
+/// A column whose numbers are made from the answers.
+template <typename Value>
+TheoryColumn numbers(std::vector<theory::Efficiency> const& answers, char const* name,
+                     char const* description, Value const& value) {
+    TheoryColumn column{name, "1", description, {}, {}};
+    for (theory::Efficiency const& answer : answers) column.numbers.push_back(value(answer));
+    return column;
 }
 
-bool has_speeds(TheoryPoints const& table) {
-    return std::ranges::any_of(table.points, [](auto const& point) { return point.amplitude().has_value(); });
+constexpr std::string_view converged = "converged";
+
+/// What the theory answers for each point.
+std::vector<TheoryColumn> answer_columns(std::vector<theory::Efficiency> const& answers) {
+    using Point = theory::Efficiency;
+    TheoryColumn mode{"mode", "1", "Phases of the motion in order", {}, {}};
+    for (Point const& answer : answers) mode.texts.push_back(theory::to_string(answer.mode));
+    return {
+        numbers(answers, "velocity_efficiency", "Velocity efficiency eta; infinite where the mass runs away",
+                [](Point const& a) { return a.velocity_efficiency; }),
+        numbers(answers, "half_width", "Half-width of eta at 95 % confidence; 0 when periodic",
+                [](Point const& a) { return a.half_width; }),
+        mode,
+        numbers(answers, "period_cycles", "Cycles after which the motion repeats; 0 when it does not",
+                [](Point const& a) { return double(a.period_cycles); }),
+        numbers(answers, converged.data(), "1 when the periodic motion was found, else 0",
+                [](Point const& a) { return a.outcome == theory::Outcome::periodic ? 1.0 : 0.0; }),
+    };
+}
+
+/// m/s, NaN where a point has no amplitude; no column when none has.
+std::vector<TheoryColumn> speed_columns(TheoryPoints const& table,
+                                        std::vector<theory::Efficiency> const& answers) {
+    if (std::ranges::none_of(table.points, [](auto const& one) { return one.amplitude().has_value(); }))
+        return {};
+    TheoryColumn column{"conveying_speed", "m/s", "Conveying speed: eta omega r cos(beta)", {}, {}};
+    for (std::size_t r = 0; r < answers.size(); ++r) {
+        auto const scale = table.points[r].velocity_scale();
+        column.numbers.push_back(scale ? answers[r].velocity_efficiency * *scale : std::nan(""));
+    }
+    return {column};
 }
 
 /// The columns of a survey; none without one. NaN where a point has fewer motions than others.
@@ -162,29 +161,25 @@ TheoryPoints parse_theory_points(core::TextFile const& file) {
 
 std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::Efficiency> const& answers,
                                Motions const& motions) {
+    auto const known = answer_columns(answers);
+    auto others = speed_columns(table, answers);
+    for (TheoryColumn& column : others) column.name += "_m_per_s";
+    for (TheoryColumn& column : motion_columns(motions)) others.push_back(std::move(column));
     std::string text;
     for (std::string const& name : table.names) text += name + ",";
-    for (AnswerColumn const& column : answer_columns)
-        text += fmt::format("{}{}", &column == &answer_columns.front() ? "" : ",", column.name);
-    bool const with_speed = has_speeds(table);
-    if (with_speed) text += ",conveying_speed_m_per_s";
-    auto const of_motions = motion_columns(motions);
-    for (TheoryColumn const& column : of_motions) text += "," + column.name;
+    for (TheoryColumn const& column : known) text += (&column == known.data() ? "" : ",") + column.name;
+    for (TheoryColumn const& column : others) text += "," + column.name;
     text += '\n';
     for (std::size_t r = 0; r < answers.size(); ++r) {
         for (std::string const& cell : table.cells[r]) text += core::csv_cell(cell) + ",";
-        for (AnswerColumn const& column : answer_columns) {
-            if (&column != &answer_columns.front()) text += ',';
-            text += core::csv_cell(column.text(answers[r]));
+        for (TheoryColumn const& column : known) {
+            if (&column != known.data()) text += ',';
+            text += !column.texts.empty()      ? core::csv_cell(column.texts[r])
+                    : column.name == converged ? fmt::format("{}", column.numbers[r] == 1)
+                                               : fmt::format("{}", column.numbers[r]);
         }
-        if (with_speed) {
-            auto const known = speed(table.points[r], answers[r]);
-            text += known ? fmt::format(",{}", *known) : ",";
-        }
-        for (TheoryColumn const& column : of_motions) {
-            double const number = column.numbers[r];
-            text += std::isnan(number) ? "," : fmt::format(",{}", number);
-        }
+        for (TheoryColumn const& column : others)
+            text += std::isnan(column.numbers[r]) ? "," : fmt::format(",{}", column.numbers[r]);
         text += '\n';
     }
     return text;
@@ -199,24 +194,8 @@ void write_theory_answers(std::filesystem::path const& path, TheoryPoints const&
             column.numbers.push_back(point.get(input).value_or(std::nan("")));
         columns.push_back(std::move(column));
     }
-    for (AnswerColumn const& answer : answer_columns) {
-        TheoryColumn column{answer.name, "1", answer.description, {}, {}};
-        for (theory::Efficiency const& point : answers) {
-            if (answer.number == nullptr) {
-                column.texts.push_back(answer.text(point));
-            } else {
-                column.numbers.push_back(answer.number(point));
-            }
-        }
-        columns.push_back(std::move(column));
-    }
-    if (has_speeds(table)) {
-        TheoryColumn column{"conveying_speed", "m/s", "Conveying speed: eta omega r cos(beta)", {}, {}};
-        for (std::size_t r = 0; r < answers.size(); ++r)
-            column.numbers.push_back(speed(table.points[r], answers[r]).value_or(std::nan("")));
-        columns.push_back(std::move(column));
-    }
-    for (TheoryColumn& column : motion_columns(motions)) columns.push_back(std::move(column));
+    for (auto& part : {answer_columns(answers), speed_columns(table, answers), motion_columns(motions)})
+        columns.insert(columns.end(), part.begin(), part.end());
     write_theory_table(path, columns);
 }
 

@@ -25,18 +25,18 @@ using testing::HasSubstr;
 /// The program's table and one column more. It is added here and nowhere else, and every view must have it.
 std::vector<Column> with_another_column() {
     std::vector<Column> columns(all_columns().begin(), all_columns().end());
-    columns.push_back({.name = "speed_number",
-                       .unit = "1",
-                       .value = [](Row const& row) -> std::optional<double> {
-                           auto const speed = row.number("conveying_speed");
-                           if (!speed) return {};
-                           return 100 * *speed;
-                       },
-                       .meaning = "A hundred times the speed, for the test",
-                       .format = "{:.1f}",
-                       .position = 165,
-                       .terminal = TerminalView{.heading = "hundredfold", .priority = 7},
-                       .report = ReportView{.heading = "speed \u00d7 100"}});
+    auto const behind = std::ranges::find(columns, "mass_flow_t_per_h", &Column::name);
+    columns.insert(behind, {.name = "speed_number",
+                            .unit = "1",
+                            .value = [](Row const& row) -> std::optional<double> {
+                                auto const speed = row.number("conveying_speed");
+                                if (!speed) return {};
+                                return 100 * *speed;
+                            },
+                            .meaning = "A hundred times the speed, for the test",
+                            .format = "{:.1f}",
+                            .terminal = TerminalView{.heading = "hundredfold", .priority = 7},
+                            .report = ReportView{.heading = "speed \u00d7 100"}});
     return columns;
 }
 
@@ -54,8 +54,8 @@ TEST(AnotherColumn, IsInJsonAndCsv) {
     auto const json = nlohmann::json::parse(to_json(rows, columns));
     EXPECT_EQ(json.at(0).at("speed_number"), 25.0);
     EXPECT_TRUE(json.at(1).at("speed_number").is_null());
-    EXPECT_THAT(to_csv(rows, columns), HasSubstr(",speed_number\n"));
-    EXPECT_THAT(to_csv(rows, columns), HasSubstr(",12.5\n"));
+    EXPECT_THAT(to_csv(rows, columns), HasSubstr(",speed_number,"));
+    EXPECT_THAT(to_csv(rows, columns), HasSubstr(",12.5,"));
 }
 
 TEST(AnotherColumn, IsInTheTerminalsTableBehindTheSpeed) {
@@ -75,10 +75,12 @@ TEST(AnotherColumn, FiltersAndSorts) {
 }
 
 TEST(AnotherColumn, IsInTheReportAndInTheReadme) {
-    auto const last = column_descriptions(columns).back();
-    EXPECT_EQ(last.at("name"), "speed_number");
-    EXPECT_EQ(last.at("meaning"), "A hundred times the speed, for the test");
-    EXPECT_EQ(last.at("report").at("heading"), "speed \u00d7 100");
+    auto const all = column_descriptions(columns);
+    auto const added =
+        std::ranges::find_if(all, [](auto const& one) { return one.at("name") == "speed_number"; });
+    ASSERT_NE(added, all.end());
+    EXPECT_EQ(added->at("meaning"), "A hundred times the speed, for the test");
+    EXPECT_EQ(added->at("report").at("heading"), "speed \u00d7 100");
     EXPECT_EQ(to_object(rows[0], columns).at("speed_number"), 25.0);
     EXPECT_THAT(column_reference(columns), HasSubstr("| `speed_number` | 1 | number | data, terminal, report "
                                                      "| A hundred times the speed, for the test |\n"));
@@ -100,14 +102,15 @@ TEST(ObservedColumns, AreInEveryView) {
                         prepare::prepare_case(scenario::parse_campaign(example_campaign, "c.toml").cases[0]));
     row.observed = {{}, {}, {}, {}, 0.25, 0.125};
     std::vector const table{row};
-    EXPECT_THAT(to_csv(table, all), HasSubstr(",temperature_m2_per_s2,temperature_half_width_m2_per_s2\n"));
+    EXPECT_THAT(to_csv(table, all),
+                HasSubstr(",temperature_m2_per_s2,temperature_half_width_m2_per_s2,outcome,"));
     auto const json = nlohmann::json::parse(to_json(table, all));
     EXPECT_EQ(json.at(0).at("temperature_m2_per_s2"), 0.25);
     EXPECT_EQ(json.at(0).at("temperature_half_width_m2_per_s2"), 0.125);
     EXPECT_THAT(to_table(table, {}, all), HasSubstr("temperature     +-"));
     EXPECT_EQ(filtered(table, "temperature>0.2", all).size(), 1u) << "also without its unit";
     EXPECT_EQ(filtered(table, "temperature>0.3", all).size(), 0u);
-    EXPECT_EQ(column_descriptions(all).at(before).at("meaning"), "Granular temperature");
+    EXPECT_EQ(column_descriptions(all).at(before - 3).at("meaning"), "Granular temperature");
     for (char const* name : {"efficiency", "conveying_speed", "speed", "layer_mode", "throw_number"})
         EXPECT_TRUE(is_name_of_program(name, "1")) << name;
     EXPECT_TRUE(is_name_of_program("wall_time", "s"));
@@ -179,12 +182,35 @@ TEST(Columns, AreInTheReference) {
 
 TEST(Columns, HaveNamesOfTheirOwnAndMeanings) {
     std::set<std::string_view> names;
-    std::set<int> positions;
     for (Column const& column : all_columns()) {
         EXPECT_TRUE(names.insert(column.name).second) << column.name;
         EXPECT_FALSE(column.meaning.empty() || column.unit.empty()) << column.name;
-        if (!column.terminal && !column.report) continue;
-        EXPECT_TRUE(positions.insert(column.position).second) << column.name;
+    }
+}
+
+// Whoever draws the obvious column must not have bars that are too short.
+TEST(Columns, AHalfWidthIsTheWholeWhateverIsNumerical) {
+    store::CaseRecord const record = store::sample_record("0123456789ab");
+    auto const prepared = prepare::prepare_case(record.scenario);
+    Row const row = compare(record.id, prepared, record, "finished");
+    double const whole = row.number("efficiency_half_width").value(),
+                 statistics = row.number("efficiency_half_width_statistics").value(),
+                 numerics = row.number("efficiency_numerics").value();
+    EXPECT_NEAR(whole, std::hypot(statistics, numerics), 1e-15);
+    EXPECT_GT(whole, statistics);
+    for (Column const& column : all_columns()) {
+        std::string number = column.name;
+        auto const at = number.find("_half_width");
+        if (at == number.npos || number.ends_with("_statistics")) continue;
+        number.erase(at, std::string_view("_half_width").size());
+        auto const found = std::ranges::find(all_columns(), number, &Column::name);
+        ASSERT_NE(found, all_columns().end()) << column.name;
+        bool const follows = number.starts_with("conveying_speed") || number.starts_with("mass_flow");
+        auto const value = found->of(row), width = column.of(row);
+        if (!follows || !value) continue;
+        EXPECT_NEAR(std::get<double>(*width) / std::get<double>(*value),
+                    whole / row.number("efficiency").value(), 1e-12)
+            << column.name;
     }
 }
 

@@ -63,10 +63,9 @@ TEST(Filter, SaysWhatIsWrong) {
     auto const said = [](char const* condition) {
         return refusal([&] { filtered(some_rows(), condition); });
     };
-    EXPECT_NE(said("gamma>1").find("there is no column 'gamma'; the columns are case, throw_number,"),
+    EXPECT_NE(said("gamma>1").find("there is no column 'gamma'; 'vibrotrough quantities' describes all"),
               std::string::npos);
-    EXPECT_NE(said("flow_speed>1").find("similar ones are conveying_speed_m_per_s, mass_flow_t_per_h,"),
-              std::string::npos);
+    EXPECT_NE(said("flow_speed>1").find("there is no column 'flow_speed'"), std::string::npos);
     EXPECT_NE(said("throw_number").find("is not a condition; write a column"), std::string::npos);
     EXPECT_NE(said("throw_number>").find("is not a condition"), std::string::npos);
     EXPECT_NE(said("throw_number=>1").find("is not a condition"), std::string::npos);
@@ -90,7 +89,7 @@ TEST(Sort, PutsUnknownNumbersLast) {
 
 TEST(Sort, SaysWhatIsWrong) {
     auto const said = [](char const* key) { return refusal([&] { sorted(some_rows(), key); }); };
-    EXPECT_NE(said("eta").find("--sort: there is no column 'eta'; the columns are case,"), std::string::npos);
+    EXPECT_NE(said("eta").find("--sort: there is no column 'eta'"), std::string::npos);
     EXPECT_NE(said("friction:down").find("the order 'down' is neither asc nor desc"), std::string::npos);
 }
 

@@ -29,8 +29,8 @@ std::vector<std::string> const contract{"case",
                                         "frequency_hz",
                                         "turns_per_minute",
                                         "efficiency",
+                                        "efficiency_half_width_statistics",
                                         "efficiency_half_width",
-                                        "efficiency_whole_half_width",
                                         "conveying_speed_m_per_s",
                                         "conveying_speed_half_width_m_per_s",
                                         "mass_flow_t_per_h",
@@ -59,7 +59,7 @@ std::vector<std::string> const contract{"case",
                                         "cycles_discarded",
                                         "wall_time_s",
                                         "outcome",
-                                        "efficiency_numerical_error",
+                                        "efficiency_numerics",
                                         "numerical_error_case",
                                         "larger_error",
                                         "not_covered",
@@ -192,7 +192,7 @@ TEST(Json, SaysNullOfWhatIsNotKnown) {
     for (Row& row : rows) row.soft.reset();
     Json const table = Json::parse(to_json(rows));
     Json const& unsteady = table.at(1);
-    for (char const* name : {"efficiency", "efficiency_half_width", "conveying_speed_m_per_s"})
+    for (char const* name : {"efficiency", "efficiency_half_width_statistics", "conveying_speed_m_per_s"})
         EXPECT_TRUE(unsteady[name].is_null()) << name;
     EXPECT_EQ(unsteady["cycles_discarded"], 2);
     for (std::size_t const without_record : {2, 3}) {
@@ -275,8 +275,7 @@ TEST(Table, IsAligned) {
 TEST(Table, ShowsTheMeasurementBesideTheTheory) {
     auto const rows = some_rows();
     std::string const line = lines_of(to_table(rows))[2];
-    std::string const whole =
-        fmt::format("0.820 +- {:.3f}", rows[0].number("efficiency_whole_half_width").value());
+    std::string const whole = fmt::format("0.820 +- {:.3f}", rows[0].number("efficiency_half_width").value());
     EXPECT_NE(line.find(whole), std::string::npos) << line;
     EXPECT_NE(line.find("  30.00  "), std::string::npos) << line;
     EXPECT_NE(line.find(rows[0].mode_theory.value()), std::string::npos) << line;
@@ -321,7 +320,7 @@ TEST(Table, KeepsTheSpeedOnANarrowTerminal) {
 
 TEST(Table, ColoursSignAndSizeOfTheDifference) {
     Row row = some_rows()[0];
-    row.set("efficiency_whole_half_width", 0.02);
+    row.set("efficiency_half_width", 0.02);
     row.efficiency_theory = 0.5;
     auto const line = [&](double dem) {
         row.set("efficiency", dem);
@@ -347,16 +346,16 @@ TEST(Table, ShowsADashForWhatIsNotKnown) {
 TEST(Table, ShowsBothErrorsInTheBudget) {
     store::CaseRecord const record = store::sample_record("0123456789ab");
     Row own = compare("0123456789ab", prepare::prepare_case(record.scenario), record, "");
-    own.set("efficiency_numerical_error", 0.034);
+    own.set("efficiency_numerics", 0.034);
     own.set("numerical_error_case", std::string(own.id));
     Row borrowed = own;
-    borrowed.set("efficiency_numerical_error", 0.2);
+    borrowed.set("efficiency_numerics", 0.2);
     borrowed.set("numerical_error_case", std::string("ba9876543210"));
     Row unknown = own;
-    unknown.set("efficiency_numerical_error", {});
-    unknown.set("efficiency_whole_half_width", {});
+    unknown.set("efficiency_numerics", {});
+    unknown.set("efficiency_half_width", {});
     Row bound = compare("0123456789ab", prepare::prepare_case(record.scenario), record, "");
-    bound.set("efficiency_numerical_error", 0.055);
+    bound.set("efficiency_numerics", 0.055);
     std::string const budget = to_table({own, borrowed, unknown, bound}, {}, budget_columns());
     EXPECT_NE(budget.find("0.820 +- 0.127 +- <0.055"), std::string::npos) << budget;
     EXPECT_NE(budget.find("0.820 +- 0.127 +- 0.034 "), std::string::npos) << budget;

@@ -44,7 +44,7 @@ class Convergence(EndToEndTest):
         for setting in budget["settings"]:
             finest = setting["variations"][-1]
             error = budget["default"]["efficiency"] - finest["efficiency"]
-            half_width = math.hypot(budget["default"]["efficiency_half_width"], finest["efficiency_half_width"])
+            half_width = math.hypot(budget["default"]["efficiency_half_width_statistics"], finest["efficiency_half_width_statistics"])
             self.assertAlmostEqual(finest["error"], error, delta=1e-12)
             self.assertAlmostEqual(finest["error_half_width"], half_width, delta=1e-12)
             if setting["verdict"] != "extrapolated":
@@ -53,15 +53,15 @@ class Convergence(EndToEndTest):
         self.assertAlmostEqual(budget["numerical_error"], math.sqrt(squares), delta=1e-12)
         self.assertIn(f"{budget['numerical_error']:.4f}", done.stdout)
 
-        self.assertEqual(row["efficiency_numerical_error"], budget["numerical_error"])
+        self.assertEqual(row["efficiency_numerics"], budget["numerical_error"])
         self.assertEqual(row["numerical_error_case"], row["case"])
-        larger = "numerical" if budget["numerical_error"] > row["efficiency_half_width"] else "statistical"
+        larger = "numerical" if budget["numerical_error"] > row["efficiency_half_width_statistics"] else "statistical"
         self.assertEqual(row["larger_error"], larger)
         shown = self.call("compare", self.output, "--budget").stdout
-        wanted = f"{row['efficiency']:.3f} +- {row['efficiency_half_width']:.3f} +- {budget['numerical_error']:.3f}"
+        wanted = f"{row['efficiency']:.3f} +- {row['efficiency_half_width_statistics']:.3f} +- {budget['numerical_error']:.3f}"
         self.assertIn(wanted, shown)
         with h5py.File(self.output / "campaign.h5") as file:
-            self.assertEqual(file["efficiency_numerical_error"][0], budget["numerical_error"])
+            self.assertEqual(file["efficiency_numerics"][0], budget["numerical_error"])
             self.assertEqual(file["numerical_error_case"].asstr()[0], row["case"])
 
         self.study(self.output, output=False)
@@ -127,7 +127,7 @@ class Convergence(EndToEndTest):
         self.run_campaign(campaign)
         self.assert_one_line_error(self.call("convergence", self.output, "--output", self.output), 2, "--output")
         (row,) = self.table()
-        self.assertIsNone(row["efficiency_numerical_error"])
+        self.assertIsNone(row["efficiency_numerics"])
         self.assertIsNone(row["larger_error"])
         (self.output / "numerics.json").write_text("{")
         self.assert_one_line_error(self.call("compare", self.output), 2, "numerics.json is damaged")

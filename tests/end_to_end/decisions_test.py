@@ -244,7 +244,7 @@ class Researcher(EndToEndTest):
         self.assertGreater(easy["efficiency"], easy["efficiency_theory"] + 0.1)
         # At a case that was simulated, the surface says what was measured there, within both intervals.
         row = next(row for row in self.table() if row["throw_number"] == 1.75 and row["grains.rolling_friction"] == 0.02)
-        self.assertLess(abs(case["efficiency"] - row["efficiency"]), math.hypot(case["half_width"], row["efficiency_half_width"]))
+        self.assertLess(abs(case["efficiency"] - row["efficiency"]), math.hypot(case["half_width"], row["efficiency_half_width_statistics"]))
         outside = self.predict("throw_number=2.8,rolling_friction=0.1")
         self.assertFalse(outside["inside"])
         self.assertGreater(outside["half_width"], easy["half_width"])

@@ -38,7 +38,7 @@ class Measure(EndToEndTest):
         found = self.measure(self.case, 0)
         # The same files give the same numbers, digit for digit.
         self.assertEqual(found["efficiency"], row["efficiency"])
-        self.assertEqual(found["efficiency_half_width"], row["efficiency_half_width"])
+        self.assertEqual(found["efficiency_half_width_statistics"], row["efficiency_half_width_statistics"])
         self.assertEqual(found["efficiency_theory"], row["efficiency_theory"])
         self.assertEqual(found["outcome"], "finished")
         self.assertEqual([one["mode"] for one in found["packings"]], [row["layer_mode"]] * 2)
@@ -99,7 +99,7 @@ class Measure(EndToEndTest):
         here, there = self.measure(packing, 1), self.measure(moved, 1, "--scenario", scenario)
         self.assertEqual(there["efficiency"], here["efficiency"])
         # One packing does not tell how packings differ: only its own cycles give an interval.
-        self.assertEqual((here["outcome"], here["efficiency_half_width"]), ("not-precise", None))
+        self.assertEqual((here["outcome"], here["efficiency_half_width_statistics"]), ("not-precise", None))
         self.assertGreater(here["packings"][0]["own_half_width"], 0)
         # A run that was stopped is measured as far as it is.
         table = moved / "cycles.csv"

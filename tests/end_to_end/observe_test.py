@@ -68,7 +68,7 @@ class Observe(EndToEndTest):
         row = self.row()
         # The same numbers; only products and fits round.
         self.assertAlmostEqual(row["efficiency_again"], row["efficiency"], delta=1e-12)
-        self.assertAlmostEqual(row["efficiency_again_half_width"], row["efficiency_half_width"], delta=1e-10)
+        self.assertAlmostEqual(row["efficiency_again_half_width"], row["efficiency_half_width_statistics"], delta=1e-10)
         done = self.observe()
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("surface_waves is not measured: it has no value in any packing", done.stderr, "a box of three columns")
@@ -78,7 +78,7 @@ class Observe(EndToEndTest):
         self.assertAlmostEqual(row["speed_of_grains_m_per_s"], row["conveying_speed_m_per_s"], delta=tolerance)
         scale = row["conveying_speed_m_per_s"] / row["efficiency"]
         # The half-width is a factor (Student's 18 or so with one degree of freedom) times a difference of two such means.
-        self.assertAlmostEqual(row["speed_of_grains_half_width_m_per_s"], scale * row["efficiency_half_width"], delta=40 * tolerance)
+        self.assertAlmostEqual(row["speed_of_grains_half_width_m_per_s"], scale * row["efficiency_half_width_statistics"], delta=40 * tolerance)
         self.check_kept(row)
 
     def check_kept(self, row):

@@ -96,7 +96,7 @@ class Units(EndToEndTest):
             self.assertAlmostEqual(row["power_per_area_w_per_m2"] / dissipated, 1, 1)
             self.assertLess(abs(row["added_mass_fraction"]), 1)
         self.assertAlmostEqual(row["mass_flow_half_width_t_per_h"] / row["mass_flow_t_per_h"],
-                               row["efficiency_whole_half_width"] / row["efficiency"], 9)
+                               row["efficiency_half_width"] / row["efficiency"], 9)
 
     def test_times_are_those_of_a_clock(self):
         campaign = self.write_campaign({}, {"layer.grains": [4000, 8000, 16000]})

@@ -24,7 +24,7 @@ def efficiency(height, rolling_friction):
 
 def make_table(columns, folder, name):
     rows = [{"case": f"{height} {rolling}", "layer.height": height, "grains.rolling_friction": rolling, "efficiency": efficiency(height, rolling),
-             "efficiency_half_width": 0.02, "efficiency_whole_half_width": 0.03, "outcome": "finished", "efficiency_theory": 0.55,
+             "efficiency_half_width_statistics": 0.02, "efficiency_half_width": 0.03, "outcome": "finished", "efficiency_theory": 0.55,
              "conveying_speed_m_per_s": SPEED_SCALE * efficiency(height, rolling), "conveying_speed_half_width_m_per_s": 0.01,
              "efficiency_rolling_layer": 0.7 if rolling == 0 else None,
              "mass_flow_per_width_t_per_h_m": 20 * height / 0.006, "mass_flow_per_width_half_width_t_per_h_m": 2.0}
@@ -93,7 +93,7 @@ def check_flow_of_a_metre(scripts, outputs):
 
 
 def check_that_only_speeds_have_a_theory(scripts, outputs):
-    figure, _ = drawn_by(scripts, outputs[:1], "layer.height", "efficiency_half_width", None, None, 1.0)
+    figure, _ = drawn_by(scripts, outputs[:1], "layer.height", "efficiency_half_width_statistics", None, None, 1.0)
     assert not [line for line in figure.axes[0].lines if line.get_marker() == "x"], "the theory of a half-width"
 
 

@@ -10,7 +10,7 @@ import sys
 sys.path.insert(0, sys.argv[1])
 import report_reasons  # noqa: E402
 
-CASE = {"case": "a", "label": "layer.height 6 mm", "layer.height": 0.006, "outcome": "finished", "friction": 0.3, "efficiency": 0.65, "efficiency_whole_half_width": 0.05,
+CASE = {"case": "a", "label": "layer.height 6 mm", "layer.height": 0.006, "outcome": "finished", "friction": 0.3, "efficiency": 0.65, "efficiency_half_width": 0.05,
         "efficiency_theory": 0.42, "efficiency_by_normal_force": 0.45, "conveying_speed_m_per_s": 0.20, "conveying_speed_half_width_m_per_s": 0.01,
         "larger_error": "numerical"}
 SWEPT = [{"key": "layer.height", "name": "layer.height", "column": "layer.height", "unit": "mm", "meaning": ""}]

@@ -64,7 +64,7 @@ def make_campaign(sample, columns, work):
     data = folder / "report" / "data"
     (data / "point_mass").mkdir(parents=True)
     row = {"throw_number": 2.1, "machine_number": 4.4, "vibration_angle_deg": 28.6479, "inclination_deg": -2.86, "friction": 0.23,
-           "amplitude_m": 0.006, "frequency_hz": 13.5, "efficiency": 0.82, "efficiency_half_width": 0.127, "efficiency_whole_half_width": 0.13,
+           "amplitude_m": 0.006, "frequency_hz": 13.5, "efficiency": 0.82, "efficiency_half_width_statistics": 0.127, "efficiency_half_width": 0.13,
            "conveying_speed_m_per_s": 0.37, "mode_theory": "FN'", "packings": 2, "cycles_measured": 2, "cycles_discarded": 2,
            "wall_time_s": 23.75, "difference": 0.27, "outcome": "not-precise", "message": "", "packings_done": 2, "packings_wanted": 2}
     row |= {"stroke_mm": 12.0, "turns_per_minute": 810.0, "conveying_speed_half_width_m_per_s": 0.057, "mass_flow_t_per_h": 4.25,
@@ -72,7 +72,7 @@ def make_campaign(sample, columns, work):
     cases = [dict(row, case=case, throw_number=2.1 + number, efficiency_theory=theory, label=f"throw_number {2.1 + number}")
              for number, (case, theory) in enumerate(CASES.items())]
     failed = dict(row, case="aaaaaaaaaaaa", throw_number=1.0, outcome="lost-grains", message=HOSTILE, efficiency=None,
-                  efficiency_half_width=None, efficiency_whole_half_width=None, efficiency_theory=0.1)
+                  efficiency_half_width_statistics=None, efficiency_half_width=None, efficiency_theory=0.1)
     (data / "campaign.json").write_text(json.dumps({
         "campaign": "sample", "program_version": "0.1.0", "git_commit": "abcdef", "engine_version": HOSTILE,
         "written": "2026-11-21T12:00:00Z", "input": "# " + HOSTILE, "columns": columns, "swept": [], "cases": [*cases, failed]}), encoding="utf-8")
@@ -116,7 +116,7 @@ def check_page(page):
     assert "lost-grains" in words.text and "restitution" in words.text
     assert "\u03b7, theory" in words.text and "+0.270" in words.text and "friction_layer" not in page, "columns of the table"
     assert re.search(r">0\.820? \u00b1 0\.130?<", page), "an interval stands in the cell of its number"
-    assert re.findall(r'data-column="([a-z_]*half_width[a-z_]*)"', page) == ["efficiency_half_width"], "the statistical part, at the push of a button"
+    assert re.findall(r'data-column="([a-z_]*half_width[a-z_]*)"', page) == ["efficiency_half_width_statistics"], "the statistical part, at the push of a button"
     assert 'title="Velocity efficiency' in page, "a heading says what it means"
     assert "\u03b1 = -2.86\u00b0" in words.text, "what is the same in all cases is said once"
     assert "amplitude r =" not in words.text and "stroke = 12 mm" in words.text and "turns = 810 1/min" in words.text
@@ -160,7 +160,7 @@ def check_words(scripts):
     sys.path.insert(0, str(scripts))
     from report_words import conclusion
 
-    case = {"case": "a", "label": "friction 0.2", "outcome": "finished", "efficiency": 0.5, "efficiency_whole_half_width": 0.02,
+    case = {"case": "a", "label": "friction 0.2", "outcome": "finished", "efficiency": 0.5, "efficiency_half_width": 0.02,
             "efficiency_theory": 0.51, "conveying_speed_m_per_s": 0.25, "conveying_speed_half_width_m_per_s": 0.01}
     other = dict(case, case="b", label="friction 0.3", efficiency=0.8, conveying_speed_m_per_s=0.4, mass_flow_per_width_t_per_h_m=14.1,
                  mass_flow_per_width_half_width_t_per_h_m=0.35)

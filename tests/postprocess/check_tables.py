@@ -62,14 +62,14 @@ def check_partition_through_the_opening():
 def check_cycles_are_seen():
     """The interval of one packing, sixty times as wide as the cycles scatter, does not make them a straight line."""
     result = {"packings/seed": np.arange(2), "packings/cycles_discarded": np.zeros(2), "packings/efficiency": np.array([0.8, 0.8]),
-              "packings/efficiency_half_width": np.array([6.0, 0.02]), "packings/verdict": ["steady", "steady"], "series/1/efficiency": np.array([0.75, 0.85, 0.8]),
+              "packings/efficiency_half_width_statistics": np.array([6.0, 0.02]), "packings/verdict": ["steady", "steady"], "series/1/efficiency": np.array([0.75, 0.85, 0.8]),
               "series/2/efficiency": np.array([0.8, 0.82, 0.78])}  # fmt: skip
     kept = []
     figure_cycles.save = lambda figure, path: kept.append(figure) or [path]
     low, high = figure_limits(kept, result)
     assert low <= 0.75 and high >= 0.85 and high - low <= 0.25, (low, high)
     # An interval that is not much wider is seen as a whole.
-    result["packings/efficiency_half_width"] = np.array([0.07, 0.02])
+    result["packings/efficiency_half_width_statistics"] = np.array([0.07, 0.02])
     low, high = figure_limits(kept, result)
     assert low < 0.73 and high > 0.87, (low, high)
 
@@ -77,7 +77,7 @@ def check_cycles_are_seen():
 def check_stages():
     """Of drives in stages there is neither a mean of all cycles to draw nor a residual."""
     result = {"packings/seed": np.arange(1), "packings/cycles_discarded": np.zeros(1), "packings/efficiency": np.array([0.8]), "packings/verdict": ["steady"],
-              "packings/efficiency_half_width": np.array([0.1]), "series/1/efficiency": np.array([0.75, 0.85, 0.8])}  # fmt: skip
+              "packings/efficiency_half_width_statistics": np.array([0.1]), "series/1/efficiency": np.array([0.75, 0.85, 0.8])}  # fmt: skip
     assert "mean and interval" in labels_of(result)
     assert labels_of({**result, "stages/start": np.zeros(1)}) == ["cycle"]
     assert figure_residuals.plot_residuals(Source(), pathlib.Path("figure")) == []

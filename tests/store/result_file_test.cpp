@@ -52,7 +52,8 @@ class ResultFile : public testing::Test {
 /// The fields are those of the schema.
 void expect_equal_layer(PackingRecord read, PackingRecord written) {
     for (PackingTable const& table : packing_tables())
-        EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
+        for (PackingColumn const& column : table.columns)
+            EXPECT_EQ(column.field(read), column.field(written)) << table.name << "/" << column.entry.name;
     EXPECT_EQ(read.granular_temperature, written.granular_temperature);
     EXPECT_EQ(read.motion.mode, written.motion.mode);
     EXPECT_EQ(read.motion.period_cycles, written.motion.period_cycles);

@@ -25,8 +25,12 @@ inline void fill_layer(PackingRecord& packing, double first) {
     packing.surface.wiggle_amplitude = 0.0008;
     double value = first;
     for (PackingTable const& table : packing_tables()) {
-        std::size_t const length = table.group == "phases" ? 5 : table.group == "profiles" ? 4 : 3;
-        for (std::size_t i = 0; i < length; ++i) table.field(packing).push_back(value += 0.25);
+        bool const is_of_layer =
+            table.name == "phases" || table.name == "profiles" || table.name == "surface";
+        if (!is_of_layer) continue;
+        std::size_t const length = table.name == "phases" ? 5 : table.name == "profiles" ? 4 : 3;
+        for (PackingColumn const& column : table.columns)
+            for (std::size_t i = 0; i < length; ++i) column.field(packing).push_back(value += 0.25);
     }
     packing.profiles.phase = {0, 0, 3, 3};  // two phases of two bins
     packing.profiles.height = {0.001, 0.0025, 0.001, 0.0025};

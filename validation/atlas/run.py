@@ -100,7 +100,7 @@ def row_of(run: ValidationCase, row: Row) -> list[object]:
         float(row["friction"]), round(1000 * float(row["amplitude_m"]) / design.DIAMETER, 6), float(row["layer.diameters"]),
         float(row["grains.friction"]), float(row["grains.rolling_friction"]), float(row["grains.restitution"]),
     ]  # fmt: skip
-    keys = ("efficiency_theory", "efficiency", "efficiency_half_width", "efficiency_numerical_error")
+    keys = ("efficiency_theory", "efficiency", "efficiency_half_width_statistics", "efficiency_numerics")
     theory, *simulated = (row[key] and f"{float(row[key]):.5f}" for key in keys)
     return [row["case"], *place, theory, rolling_layer(run, place), *simulated, row["layer_mode"], row["outcome"]]
 
@@ -128,7 +128,7 @@ def simulate(run: ValidationCase) -> None:
     numbered = [[number, *row] for number, row in enumerate(held_out) if is_known(row)]
     run.write_table("held_out.csv", ["number", *COLUMNS], numbered)
     same = [
-        [name, row["throw_number"], row["efficiency"], row["efficiency_half_width"]]
+        [name, row["throw_number"], row["efficiency"], row["efficiency_half_width_statistics"]]
         for name, changes in SAME.items()
         for row in run.campaign(f"same-{name}", changes, {"trough.throw_number": [1.2, 1.8, 2.6]})
     ]

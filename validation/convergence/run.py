@@ -81,7 +81,7 @@ def judge_boxes(run: ValidationCase) -> None:
 
 
 def measured(row: Row) -> list[str]:
-    numbers = [f"{float(row[name] or math.nan):.4f}" for name in ("efficiency", "efficiency_half_width")]
+    numbers = [f"{float(row[name] or math.nan):.4f}" for name in ("efficiency", "efficiency_half_width_statistics")]
     return numbers + [row["outcome"], row["cycles_measured"]]
 
 

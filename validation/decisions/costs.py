@@ -120,7 +120,7 @@ def grid(run: ValidationCase, name: str, domain: Domain, unit: Floats) -> list[o
     """
     folder = run.runs / f"{name}-held-out"
     rows = campaign_table(run.program, folder)
-    sd = float(np.mean([float(row["efficiency_half_width"]) for row in rows if row["efficiency_half_width"]])) / 1.96
+    sd = float(np.mean([float(row["efficiency_half_width_statistics"]) for row in rows if row["efficiency_half_width_statistics"]])) / 1.96
 
     def truth(places: Floats) -> Floats:
         return predict(run, folder, domain, scaled(domain, places))[:, 0]

@@ -72,7 +72,7 @@ def rows_of(domain: str, folder: pathlib.Path, answers: list[Row]) -> list[list[
         frozen = tomllib.loads((folder / "cases" / row["case"] / "scenario.toml").read_text(encoding="utf-8"))
         trough, grains = frozen["trough"], frozen["grains"]
         table.append([domain, trough["throw_number"], trough["tan_vibration_angle"], grains["rolling_friction"], row["efficiency"],
-                      row["efficiency_half_width"], row["efficiency_theory"], row["outcome"]])
+                      row["efficiency_half_width_statistics"], row["efficiency_theory"], row["outcome"]])
     return table
 
 

@@ -36,7 +36,7 @@ def transit(result: vibrotrough.File, packing: int, landing: float) -> float:
 def measured(run: ValidationCase, name: str, row: Row) -> list[object]:
     """COLUMNS of one case; NaN where a case has no mean."""
     path = run.runs / name / "cases" / row["case"] / "result.h5"
-    numbers = [f"{float(row[key] or math.nan):.4f}" for key in ("efficiency", "efficiency_half_width")]
+    numbers = [f"{float(row[key] or math.nan):.4f}" for key in ("efficiency", "efficiency_half_width_statistics")]
     known = [*numbers, row["outcome"], row["packings"]]
     if not path.is_file():
         return [*known, *["nan"] * (len(COLUMNS) - len(known))]

@@ -18,7 +18,7 @@ def main() -> None:
         gamma = float(row["throw_number"])
         theory = run.json("point", "--throw-number", row["throw_number"], "--vibration-angle", row["vibration_angle_deg"] + " deg",
                           "--friction", 1.0 if run.control else row["friction"])["velocity_efficiency"]
-        difference, width = float(row["efficiency"]) - theory, float(row["efficiency_whole_half_width"])
+        difference, width = float(row["efficiency"]) - theory, float(row["efficiency_half_width"])
         if gamma <= 2.0:
             run.between(f"layer less theory, Gamma {gamma} (+- {width:.3f})", difference, 0.1 + width, 0.6,
                         "the gap: a tenth beyond the interval")

@@ -70,7 +70,7 @@ def simulate(run: ValidationCase, rows: list[Row]) -> None:
         result = vibrotrough.open_result(run.runs / "layers" / "cases" / answer["case"] / "result.h5")
         modulus = float(result["case/grain_youngs_modulus"]) / 1e6
         unit = 2 * math.pi * frequency * float(answer["amplitude_m"]) * math.cos(math.radians(float(answer["vibration_angle_deg"])))
-        lines.append([round(60 * frequency), answer["friction"], f"{eta * unit:.5f}", f"{float(answer['efficiency_half_width']) * unit:.5f}",
+        lines.append([round(60 * frequency), answer["friction"], f"{eta * unit:.5f}", f"{float(answer['efficiency_half_width_statistics']) * unit:.5f}",
                       f"{float(answer['efficiency_theory']) * unit:.5f}", answer["cycles_measured"], answer["outcome"], f"{modulus:g}"])
     run.write_table("result.csv", LAYER_COLUMNS, lines)
 

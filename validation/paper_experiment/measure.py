@@ -77,7 +77,7 @@ def described(row: Row, result: File | None) -> list[str]:
     gradients = np.asarray(result["packings/velocity_gradient"] * result["packings/efficiency"])
     gradient = gradients[~np.isnan(gradients)].mean() if steady and not np.isnan(gradients).all() else math.nan
     overlap = float(result["case/largest_overlap"] / result["case/grain_diameter"])
-    eta = [f"{float(row[name]):.4f}" if steady else "" for name in ("efficiency", "efficiency_half_width")]
+    eta = [f"{float(row[name]):.4f}" if steady else "" for name in ("efficiency", "efficiency_half_width_statistics")]
     return [grains, *inputs, *eta, f"{gradient:.4f}", f"{overlap:.4f}", means, row["cycles_measured"], row["layer_mode"],
             row["outcome"], f"{float(result['case/grain_youngs_modulus']) / 1e6:g}"]
 

@@ -58,7 +58,7 @@ def measured(run: ValidationCase, campaign: str, group: str, row: Row) -> list[o
     """COLUMNS of one case."""
     result = vibrotrough.open_result(run.runs / campaign / "cases" / row["case"] / "result.h5")
     modulus = float(result["case/grain_youngs_modulus"]) / 1e6
-    return [group, round(float(row["throw_number"]), 6), row["efficiency"], row["efficiency_half_width"], row["packings"], row["outcome"],
+    return [group, round(float(row["throw_number"]), 6), row["efficiency"], row["efficiency_half_width_statistics"], row["packings"], row["outcome"],
             f"{modulus:g}"]
 
 

@@ -39,7 +39,7 @@ def simulate(run: ValidationCase) -> None:
         for answer in run.campaign(rotation, {"grains.rotation": rotation}, {"trough.friction": LAYER_FRICTIONS}):
             unit = 100 * 2 * math.pi * float(answer["frequency_hz"]) * float(answer["amplitude_m"])
             unit *= math.cos(math.radians(float(answer["vibration_angle_deg"])))
-            names = ("efficiency", "efficiency_half_width", "efficiency_theory")
+            names = ("efficiency", "efficiency_half_width_statistics", "efficiency_theory")
             lines.append([rotation, answer["friction"], *(f"{float(answer[name]) * unit:.3f}" for name in names), answer["cycles_measured"],
                           answer["outcome"]])
     run.write_table("result.csv", LAYER_COLUMNS, lines)

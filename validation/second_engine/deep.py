@@ -26,7 +26,7 @@ def measure(run: ValidationCase) -> None:
     moduli = [SOFT] if run.quick else [SOFT, STIFF]
     table = run.campaign("deep", {}, {"grains.youngs_modulus": [f"{modulus} MPa" for modulus in moduli]})
     for modulus, row in zip(moduli, table):
-        rows.append(["LIGGGHTS", "free", modulus, f"{float(row['efficiency']):.4f}", f"{float(row['efficiency_half_width']):.4f}",
+        rows.append(["LIGGGHTS", "free", modulus, f"{float(row['efficiency']):.4f}", f"{float(row['efficiency_half_width_statistics']):.4f}",
                      row["packings"]])
     packings, cycles = (1, lammps.START + 3) if run.quick else (lammps.PACKINGS, lammps.CYCLES)
     names = list(LAYERS)[:1] if run.quick else list(LAYERS)

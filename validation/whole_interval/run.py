@@ -33,7 +33,7 @@ def measured(run: ValidationCase, name: str, row: Row) -> tuple[float, list[obje
     """Young's modulus of a case, and MEASURED."""
     scenario = tomllib.loads((run.runs / name / "cases" / row["case"] / "scenario.toml").read_text(encoding="utf-8"))
     modulus = float(str(scenario["grains"]["youngs_modulus"]).removesuffix(" Pa"))
-    numbers = [f"{float(row[key] or math.nan):.4f}" for key in ("efficiency", "efficiency_half_width")]
+    numbers = [f"{float(row[key] or math.nan):.4f}" for key in ("efficiency", "efficiency_half_width_statistics")]
     return modulus, [f"{modulus:g}", *numbers, row["packings"], row["cycles_measured"], row["outcome"]]
 
 

@@ -14,7 +14,7 @@ from campaign_program import Row  # noqa: E402
 
 COLUMNS = ["rung", "throw_number", "vibration_angle_deg", "friction", "efficiency", "half_width", "efficiency_theory", "mode_theory",
            "layer_mode", "efficiency_by_normal_force", "landing_friction", "packings", "packing_efficiencies", "outcome", "modulus_MPa"]
-NAMES = {"efficiency": "efficiency", "half_width": "efficiency_half_width"}
+NAMES = {"efficiency": "efficiency", "half_width": "efficiency_half_width_statistics"}
 GAP, BEYOND = [1.5, 1.7, 2.0], [2.5, 3.0]
 
 

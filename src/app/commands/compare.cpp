@@ -97,7 +97,7 @@ int run_compare(CompareArguments const& options) {
     return all_well;
 }
 
-constexpr char const* table_help =
+constexpr char const* what_the_columns_mean =
     R"(The columns of the table. After the case comes a column for every key that the campaign sweeps, under
 the name that it has in the campaign file; --sort and --filter take these names, too:
 
@@ -133,8 +133,46 @@ Examples:
   vibrotrough compare runs/demo --csv > demo.csv
   vibrotrough compare runs/demo --filter 'throw_number>1.8' --sort difference:desc
   vibrotrough compare runs/mine --filter 'grains.rolling_friction<0.1'
-  vibrotrough compare runs/stages --stages
-  vibrotrough compare supplement.zip)";
+  vibrotrough compare runs/stages --stages)";
+
+void add_options(CLI::App& command, CompareArguments& options) {
+    command.add_option("DIR", options.folder, "Folder of the campaign's results, as given to run --output")
+        ->required();
+    CLI::Option* const json = command.add_flag("--json", options.json, "Print JSON for scripts");
+    CLI::Option* const csv =
+        command.add_flag("--csv", options.csv, "Print CSV with the same columns as --json")->excludes(json);
+    command
+        .add_flag("--theory-curves", options.curves,
+                   "Print fine curves of the theory through the cases as CSV, for figures")
+        ->excludes(json)
+        ->excludes(csv);
+    command
+        .add_flag("--budget", options.budget,
+                   "Print the table with both errors of the simulation apart, statistical and numerical. "
+                   "JSON and CSV always have both")
+        ->excludes(json)
+        ->excludes(csv);
+    command
+        .add_flag(
+            "--stages", options.stages,
+            "Print a line for each stage of drives with [[stages]]: what the layer does in it, and what "
+            "the theory says of its drive")
+        ->excludes("--theory-curves")
+        ->excludes("--budget");
+    add_text(command, "--sort", options.sort,
+             "Sort by a column of the JSON or by 'difference' (DEM minus theory), for example "
+             "difference:desc",
+             "COLUMN[:desc]");
+    add_repeated(command, "--filter", options.filters,
+                 "Keep only the cases in which a column of the JSON (or 'difference') is > >= < <= = or != a "
+                 "value. Repeat the option for further conditions",
+                 "CONDITION");
+    command
+        .add_option("--color", options.colour,
+                     "Colour the table: auto means on a terminal where NO_COLOR is not set")
+        ->check(CLI::IsMember({"auto", "always", "never"}))
+        ->capture_default_str();
+}
 
 }  // namespace
 
@@ -142,43 +180,8 @@ void add_compare(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<CompareArguments>();
     CLI::App* const command = program.add_subcommand(
         "compare", "Print the measured velocity efficiency of every case beside the point-mass theory");
-    command->add_option("DIR", options->folder, "Folder of the campaign's results, as given to run --output")
-        ->required();
-    CLI::Option* const json = command->add_flag("--json", options->json, "Print JSON for scripts");
-    CLI::Option* const csv =
-        command->add_flag("--csv", options->csv, "Print CSV with the same columns as --json")->excludes(json);
-    command
-        ->add_flag("--theory-curves", options->curves,
-                   "Print fine curves of the theory through the cases as CSV, for figures")
-        ->excludes(json)
-        ->excludes(csv);
-    command
-        ->add_flag("--budget", options->budget,
-                   "Print the table with both errors of the simulation apart, statistical and numerical. "
-                   "JSON and CSV always have both")
-        ->excludes(json)
-        ->excludes(csv);
-    command
-        ->add_flag(
-            "--stages", options->stages,
-            "Print a line for each stage of drives with [[stages]]: what the layer does in it, and what "
-            "the theory says of its drive")
-        ->excludes("--theory-curves")
-        ->excludes("--budget");
-    add_text(*command, "--sort", options->sort,
-             "Sort by a column of the JSON or by 'difference' (DEM minus theory), for example "
-             "difference:desc",
-             "COLUMN[:desc]");
-    add_repeated(*command, "--filter", options->filters,
-                 "Keep only the cases in which a column of the JSON (or 'difference') is > >= < <= = or != a "
-                 "value. Repeat the option for further conditions",
-                 "CONDITION");
-    command
-        ->add_option("--color", options->colour,
-                     "Colour the table: auto means on a terminal where NO_COLOR is not set")
-        ->check(CLI::IsMember({"auto", "always", "never"}))
-        ->capture_default_str();
-    command->footer(std::string(table_help) + mode_letters + examples);
+    add_options(*command, *options);
+    command->footer(std::string(what_the_columns_mean) + mode_letters + examples);
     command->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }
 

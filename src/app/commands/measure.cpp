@@ -76,9 +76,9 @@ void print_json(evaluate::HandRun const& run) {
     std::string const open = not_covered(run.prepared.scenario.engine);
     Json const json{{"outcome", name_of(run.outcome)},
                     {"efficiency", number_or_null(e.mean)},
-                    {"efficiency_half_width", number_or_null(e.half_width)},
-                    {"efficiency_numerical_error", number_or_null(numerical_error(run))},
-                    {"efficiency_whole_half_width", number_or_null(whole_half_width(run))},
+                    {"efficiency_half_width_statistics", number_or_null(e.half_width)},
+                    {"efficiency_numerics", number_or_null(numerical_error(run))},
+                    {"efficiency_half_width", number_or_null(whole_half_width(run))},
                     {"confidence", run.prepared.scenario.measure.confidence},
                     {"speed_m_per_s", speed(e.mean)},
                     {"speed_half_width_m_per_s", speed(whole_half_width(run))},

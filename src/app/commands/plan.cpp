@@ -94,7 +94,6 @@ std::vector<compare::Column> case_columns(campaign::Plan const& plan) {
         return std::ranges::find(always, column.name) == always.end() &&
                !compare::is_swept(column, plan.swept);
     });
-    std::ranges::stable_sort(columns, {}, &compare::Column::position);
     return columns;
 }
 

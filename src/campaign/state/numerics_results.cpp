@@ -38,7 +38,7 @@ evaluate::StudyResult result_of(Plan const& plan, scenario::Scenario const& scen
 Json describe(evaluate::StudyResult const& result) {
     return {{"case", result.case_id},
             {"efficiency", core::note::known_or_null(result.mean)},
-            {"efficiency_half_width", core::note::known_or_null(result.half_width)},
+            {"efficiency_half_width_statistics", core::note::known_or_null(result.half_width)},
             {"message", result.message}};
 }
 

@@ -119,16 +119,16 @@ class PrecisionBench(unittest.TestCase):
         table = json.loads(subprocess.run([PROGRAM, "compare", str(output), "--json"], capture_output=True, text=True).stdout)
         for row in table:
             print(f"program Gamma {row['throw_number']}, {row['vibration_angle_deg']:.1f} deg: {row['efficiency']} +- "
-                  f"{row['efficiency_half_width']} from {row['packings']} packings, {row['outcome']}", flush=True)  # fmt: skip
+                  f"{row['efficiency_half_width_statistics']} from {row['packings']} packings, {row['outcome']}", flush=True)  # fmt: skip
         return table, seconds
 
     def compare(self, name, user, points, asked, spent):
         """Prints what the program spends for these half-widths, beside what the user `spent`."""
         table, seconds = self.ours(name, points, asked)
-        apart = sum(abs(mean - row["efficiency"]) > math.hypot(width, row["efficiency_half_width"])
+        apart = sum(abs(mean - row["efficiency"]) > math.hypot(width, row["efficiency_half_width_statistics"])
                     for (mean, width, _), row in zip(user, table) if row["efficiency"] is not None)  # fmt: skip
         finished = [row for row in table if row["outcome"] == "finished"]
-        reached = [row["efficiency_half_width"] / width for row, width in zip(table, asked) if row in finished]
+        reached = [row["efficiency_half_width_statistics"] / width for row, width in zip(table, asked) if row in finished]
         run = sum((row["cycles_measured"] or 0) + (row["cycles_discarded"] or 0) for row in table)
         print(f"{name} half-width, {len(points)} cases: careful user {spent:.0f} core-seconds, program {seconds:.0f}: "
               f"{seconds / spent:.2f} of it, {run} cycles; {len(finished)} finished, with {statistics.median(reached or [math.nan]):.2f} of the half-width "
