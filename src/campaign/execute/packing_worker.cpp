@@ -25,7 +25,12 @@ EndedPacking run(ExecutorInputs const& inputs, PackingOrder const& order, engine
     int heard = 0;
     while (!executor->is_idle()) {
         for (; heard < std::min(signals.count(), 2); ++heard) executor->interrupt();
-        for (EndedPacking& ended : executor->wait()) return std::move(ended);
+        for (EndedPacking& ended : executor->wait()) {
+            // Who ends a task sends the signal to its engine, too.
+            if (ended.failure == core::Outcome::engine_crashed && signals.count() > 0)
+                ended.failure = core::Outcome::interrupted;
+            return std::move(ended);
+        }
     }
     return {order.id(), core::Outcome::interrupted, "the run was interrupted"};
 }
