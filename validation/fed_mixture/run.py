@@ -44,7 +44,7 @@ def simulate(run: ValidationCase) -> None:
         tables = [table[()] for table in file["material_along"].values()]
     at_places = np.interp(PLACES, fines["x"][inside], time)
     with result_of(run, "endless", kept) as file:
-        index, frequency = file["segregation"][()], float(file["case"]["frequency"])
+        index, frequency = file["segregation"][()], float(file["case"]["frequency"][0])
         ends = [table[()] for table in file["material_ends"].values()]
     fed_changes = [np.diff(np.interp(PLACES, *(table[name][len(table) // 2 :] for name in ("x", "segregation"))))[0] for table in tables]
     kept_changes = [np.diff(np.interp(at_places, np.arange(len(one)) / frequency, (one["z_1"] - one["z_0"]) / (height / 2e3)))[0] for one in ends]
