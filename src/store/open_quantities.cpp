@@ -161,7 +161,6 @@ std::vector<Quantity> open_quantities() {
     add_measured(rows, flow(&Flow::fill_time), {"fill_time", "fill_time_half_width"}, "s",
                  "Time in which the empty trough filled to 95 % of its hold-up",
                  {.format = "{:.3g}", .report = ReportView{"time to fill"}});
-    for (Quantity& row : rows) row.known_without_mean = true;
     return rows;
 }
 

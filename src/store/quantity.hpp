@@ -93,9 +93,9 @@ using CaseNumber = std::variant<int, std::optional<double>, std::string>;
 /// One number or word of a result: `case/<name>` or `packings/<name>` of result.h5 or both, a column of
 /// campaign.h5, and the columns of `compare` that its views describe.
 struct Quantity {
-    using Integer = std::function<int(CaseRecord const&)>;
-    using Real = std::function<std::optional<double>(CaseRecord const&)>;
-    using Text = std::function<std::string(CaseRecord const&)>;
+    using Integer = std::function<int(CaseRecord const&)>;                 ///< computes a whole number
+    using Real = std::function<std::optional<double>(CaseRecord const&)>;  ///< computes a number
+    using Text = std::function<std::string(CaseRecord const&)>;            ///< computes a word
     /// Computes the value of a case from its record, or leads to the value of a packing in its record.
     using Of = std::variant<Integer, Real, Text, Field<PackingRecord, int>, Field<PackingRecord, double>,
                             MeasuredNumber, Field<PackingRecord, std::string>,
@@ -143,7 +143,7 @@ std::optional<double> half_width_over_packings(CaseRecord const& record, Measure
 
 /// The names of a number of the packings and of the half-width of its interval.
 struct MeasuredNames {
-    std::string_view name, half_width;
+    std::string_view name, half_width;  ///< of the number, of the half-width
 };
 
 /// Adds a number of the packings and the half-width of its interval, with one column each.

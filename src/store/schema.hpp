@@ -101,15 +101,15 @@ class MeasuredColumn {
 MeasuredColumn over_packings(CaseRecord const& record,
                              Field<PackingRecord, std::vector<double>> const& column, std::size_t rows);
 
-/// The texts of a case that are datasets of result.h5: the frozen scenario as TOML, the certificate of the
-/// engine binary as JSON, and the files that the scenario names, as a JSON object of names and contents.
+/// The frozen scenario, a text of result.h5.
 inline Entry const scenario_entry{"scenario", "1",
                                   "The scenario as a campaign file of one case (TOML, SI units)"};
-inline Entry const certificate_entry{
-    "engine_certificate", "1",
-    "Certificate of the engine binary (JSON): what its probes showed; empty when it was not probed"};
+inline Entry const certificate_entry{"engine_certificate", "1",
+                                     "Certificate of the engine binary (JSON): what its probes showed; empty "
+                                     "when it was not probed"};  ///< the same
 inline Entry const scenario_files_entry{
-    "scenario_files", "1", "The files that the scenario names: a JSON object of names and contents"};
+    "scenario_files", "1",
+    "The files that the scenario names: a JSON object of names and contents"};  ///< its files
 
 /// The values of a swept key, a dataset `swept/<key>` of campaign.h5. Angles are in rad.
 Entry swept_entry(scenario::Key const& key);

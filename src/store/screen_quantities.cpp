@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace vibrotrough::store {
 namespace {
@@ -207,19 +208,17 @@ CaseTable partition_table() {
         entries,
         "Share of them that is on the screen at the end, with a feed that left over the edge, mean over "
         "the packings");
-    entries.push_back(
-        {"probability", "1",
-         "Probability p = ((a - d) / (a + w))^2 that a grain passes at one attempt (Gaudin 1939): "
-         "of a sphere of diameter d that falls straight on a screen with the opening a and the "
-         "bars w"});
-    entries.push_back(
-        {"stays_by_model", "1",
-         "Share that stays with one attempt in each of n cycles: (1 - p)^n; with a feed n is the "
-         "time that the layer needs along the holes over the period"});
-    entries.push_back(
-        {"attempts", "1",
-         "Attempts per cycle with which the model leaves the share that was measured: ln(stays) / "
-         "(n ln(1 - p)); NaN where none or all of a size can pass or have passed"});
+    entries.insert(
+        entries.end(),
+        {{"probability", "1",
+          "Probability p = ((a - d) / (a + w))^2 that a grain passes at one attempt (Gaudin 1939): of a "
+          "sphere of diameter d that falls straight on a screen with the opening a and the bars w"},
+         {"stays_by_model", "1",
+          "Share that stays with one attempt in each of n cycles: (1 - p)^n; with a feed n is the time that "
+          "the layer needs along the holes over the period"},
+         {"attempts", "1",
+          "Attempts per cycle with which the model leaves the share that was measured: ln(stays) / (n ln(1 - "
+          "p)); NaN where none or all of a size can pass or have passed"}});
     add_measured(entries, {"half_time", "s",
                            "Time until half of this size has passed, mean over the packings; NaN when it has "
                            "not in one of them"});
@@ -269,22 +268,19 @@ auto size_in_cycle(std::vector<double> measure::SizeTable::*member) {
     return field(&PackingRecord::screening, &Screening::by_size, member);
 }
 
-PackingTable sizes_table() {
-    return {"sizes",
-            "sizes",
-            scenario::is_screen,
-            {{{"diameter", "m", "Diameter of the grains of one size, from the smallest; only of screens"},
-              size(&Screening::diameter)},
-             {{"number", "1",
-               "Grains of this size at first; with a feed, that passed the screen or left over its edge in "
-               "the cycles that count"},
-              size(&Screening::number)},
-             {{"mass", "kg", "Mass of one of them"}, size(&Screening::mass)},
-             {{"passed", "1", "How many of them passed the screen"}, size(&Screening::passed)}}};
-}
-
 std::vector<PackingTable> batch_tables() {
     return {
+        {"sizes",
+         "sizes",
+         scenario::is_screen,
+         {{{"diameter", "m", "Diameter of the grains of one size, from the smallest; only of screens"},
+           size(&Screening::diameter)},
+          {{"number", "1",
+            "Grains of this size at first; with a feed, that passed the screen or left over its edge in "
+            "the cycles that count"},
+           size(&Screening::number)},
+          {{"mass", "kg", "Mass of one of them"}, size(&Screening::mass)},
+          {{"passed", "1", "How many of them passed the screen"}, size(&Screening::passed)}}},
         {"screen",
          "cycles + 1",
          is_batch,
@@ -333,9 +329,8 @@ std::vector<PackingTable> fed_screen_tables() {
 }  // namespace
 
 std::vector<PackingTable> screen_tables() {
-    std::vector<PackingTable> tables{sizes_table()};
-    for (auto const& part : {batch_tables(), fed_screen_tables()})
-        tables.insert(tables.end(), part.begin(), part.end());
+    std::vector<PackingTable> tables = batch_tables();
+    for (PackingTable& table : fed_screen_tables()) tables.push_back(std::move(table));
     return tables;
 }
 

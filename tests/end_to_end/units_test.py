@@ -80,7 +80,7 @@ class Units(EndToEndTest):
         self.assertAlmostEqual(row["machine_number"], (2 * math.pi * 850 / 60) ** 2 * 0.004 / 9.81, 9)
         (result,) = self.results()
         with h5py.File(result) as file:
-            mass, case = file["packings"]["mass"][0], file["case"]
+            mass, case = file["packings"]["mass"][0], file["case"][0]
             per_area = mass / (0.015 * 0.018)
             # The stored mass is that of whole numbers of grains of three sizes.
             self.assertAlmostEqual(case["mass_per_area"] / per_area, 1, 1)

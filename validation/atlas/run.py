@@ -78,7 +78,7 @@ def layers_at(run: ValidationCase, name: str, unit: Floats, changes: dict[str, A
 def load_of(campaign: pathlib.Path, case: str) -> list[str]:
     """What a layer did to its trough, as LOAD, with Student's interval over its packings."""
     with h5py.File(campaign / "cases" / case / "result.h5") as file:
-        packings, whole = file["packings"], {key: float(file["case"][key]) for key in ("added_mass_fraction", "added_mass", "frequency")}
+        packings, whole = file["packings"], {key: float(file["case"][key][0]) for key in ("added_mass_fraction", "added_mass", "frequency")}
         mass = whole["added_mass"] / whole["added_mass_fraction"]
         count = len(packings)
         width = float(scipy.stats.t.ppf(0.975, count - 1)) / math.sqrt(count) if count > 1 else math.nan
@@ -86,7 +86,7 @@ def load_of(campaign: pathlib.Path, case: str) -> list[str]:
         for name, unit in (("added_mass", mass), ("damping", mass * 2 * math.pi * whole["frequency"])):
             values = np.asarray(packings[name]) / unit
             found += [f"{np.mean(values):.5f}", f"{width * np.std(values, ddof=1):.5f}"]
-        return [*found, str(int(file["case"]["period_cycles"]))]
+        return [*found, str(int(file["case"]["period_cycles"][0]))]
 
 
 def ids_of(run: ValidationCase, text: str) -> list[str]:
