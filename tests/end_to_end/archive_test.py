@@ -76,7 +76,7 @@ class Archive(EndToEndTest):
         whole = self.call("archive", self.output, "--output", self.bundle)
         self.assert_one_line_error(whole, 2, "1 of 2 cases has no result", self.table()[1]["case"], "--partial")
         self.assertFalse(self.bundle.exists())
-        self.assertIn("without campaign.h5, which does not hold the results", self.archive().stdout)
+        self.assertIn("without campaign.h5, which is damaged or does not hold the results", self.archive().stdout)
         self.bundle.unlink()
         result = self.output / "cases" / self.table()[0]["case"] / "result.h5"
         content, times = result.read_bytes(), result.stat()
