@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <regex>
 #include <string>
 #include <system_error>
@@ -180,6 +181,8 @@ double parse_quantity(std::string_view text, std::string const& unit) {
     check_ton(rest);
     std::string written = (rest.front() == '/' ? "1" : "") + std::string(rest);  // "340 / minute"
     if (unit == "Hz") written = turns_as_cycles(written);
+    static std::mutex one_caller;  // the scanner of udunits2 is not for several threads
+    std::lock_guard const lock(one_caller);
     Unit const from = parse_unit(written);
     if (!from) throw QuantityError(fmt::format("'{}' is not a known unit (of udunits2)", rest));
     Unit const to = parse_unit(unit);

@@ -206,7 +206,7 @@ class Trust(EndToEndTest):
         times = result.stat()
         with h5py.File(result) as file:
             table = file["series/1"]
-            place, count, row = table.id.get_offset(), len(table), table.dtype
+            place, count, row = table.id.get_chunk_info(0).byte_offset, len(table), table.dtype
         with open(result, "r+b") as file:
             file.seek(place)
             values = np.frombuffer(file.read(count * row.itemsize), row).copy()

@@ -185,7 +185,7 @@ TEST(Calibration, RostaIsNotIdentifiable) {
 /// The finished cases of the simulated block with friction 0.18 (validation/history), as speeds known to
 /// `uncertainty` in velocity efficiency.
 std::vector<MeasuredSpeed> wooden_block(double uncertainty) {
-    std::string const file = std::string(VALIDATION_FOLDER) + "/rigid_block/result.csv";
+    std::string const file = std::string(VALIDATION_FOLDER) + "/history/rigid_block.csv";
     std::string const text = core::read_file(file);
     core::CsvReader table(text, file, {.comments = true});
     std::vector<MeasuredSpeed> speeds;

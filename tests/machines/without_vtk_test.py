@@ -32,7 +32,7 @@ class WithoutVtk(unittest.TestCase):
 
     def test_export_says_so_in_one_line_and_writes_nothing(self):
         (self.folder / "campaign.toml").write_text("", encoding="utf-8")
-        for words in (["export", "."], ["export", ".", "--table"], ["export", "gone"]):
+        for words in (["export", "."], ["export", "gone"]):
             done = self.call(*words)
             self.assertEqual((done.returncode, done.stdout), (3, ""), words)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)

@@ -2,6 +2,7 @@
 import math
 import pathlib
 import sys
+from typing import Any
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
@@ -11,12 +12,15 @@ from matplotlib.axes import Axes  # noqa: E402
 from figure_style import plt  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
-STEP = 0.005  # of the curves, in mu
+STEP = 0.005  # to which the end of a mode is looked for, in mu
+FRICTIONS = [0.02 * k for k in range(1, 31)]  # of the curves
 
 
 def judge_curve(run: ValidationCase, axes: Axes, k: float, slope: tuple[object, ...]) -> None:
-    rows = run.csv("friction", "--machine-number", k, "--friction", "0.02:0.6:117", *slope)
-    mu = [float(row["friction"]) for row in rows]
+    def at(friction: float) -> dict[str, Any]:
+        return run.json("friction", "--machine-number", k, "--friction", friction, *slope)
+
+    rows, mu = [at(friction) for friction in FRICTIONS], FRICTIONS
     x = [float(row["max_relative_displacement"]) for row in rows]
     axes.plot(mu, x, label=f"K = {k:g}")
     slides = [i for i, row in enumerate(rows) if row["mode"] == "PN"]
@@ -24,7 +28,11 @@ def judge_curve(run: ValidationCase, axes: Axes, k: float, slope: tuple[object, 
     run.check(f"K = {k:g}: largest deviation from the closed form in the PN mode", worst, 0, 1e-8, because="the solver's error")
     last = k / math.sqrt(1 + math.pi**2 / 4)
     if last < mu[-1]:
-        run.check(f"K = {k:g}: largest mu of the PN mode", mu[slides[-1]], last, STEP, because="a step of the curve")
+        low, high = mu[slides[-1]], mu[slides[-1] + 1]
+        while high - low > STEP:
+            middle = (low + high) / 2
+            low, high = (middle, high) if at(middle)["mode"] == "PN" else (low, middle)
+        run.check(f"K = {k:g}: largest mu of the PN mode", low, last, STEP, because="the step of the search")
 
 
 def main() -> None:

@@ -143,13 +143,13 @@ void add_options(CLI::App& command, CompareArguments& options) {
         command.add_flag("--csv", options.csv, "Print CSV with the same columns as --json")->excludes(json);
     command
         .add_flag("--theory-curves", options.curves,
-                   "Print fine curves of the theory through the cases as CSV, for figures")
+                  "Print fine curves of the theory through the cases as CSV, for figures")
         ->excludes(json)
         ->excludes(csv);
     command
         .add_flag("--budget", options.budget,
-                   "Print the table with both errors of the simulation apart, statistical and numerical. "
-                   "JSON and CSV always have both")
+                  "Print the table with both errors of the simulation apart, statistical and numerical. "
+                  "JSON and CSV always have both")
         ->excludes(json)
         ->excludes(csv);
     command
@@ -169,7 +169,7 @@ void add_options(CLI::App& command, CompareArguments& options) {
                  "CONDITION");
     command
         .add_option("--color", options.colour,
-                     "Colour the table: auto means on a terminal where NO_COLOR is not set")
+                    "Colour the table: auto means on a terminal where NO_COLOR is not set")
         ->check(CLI::IsMember({"auto", "always", "never"}))
         ->capture_default_str();
 }

@@ -53,6 +53,12 @@ std::string GivenKeys::text(std::string_view key, double value) const {
     return fmt::format("{:.6g} {}", value / core::parse_quantity("1 " + unit, std::string(known.unit)), unit);
 }
 
+std::string_view GivenKeys::unit(std::string_view key) const {
+    auto const found = values_.find(key);
+    return found == values_.end() || found->second.unit.empty() ? find_key(key)->unit
+                                                                : std::string_view(found->second.unit);
+}
+
 void GivenKeys::fail(std::string_view key, std::string_view wrong, std::string_view instead) const {
     auto const found = values_.find(key);
     throw_at({file_, found == values_.end() ? Position{} : found->second.where}, key, wrong, instead);

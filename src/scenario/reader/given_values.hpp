@@ -62,6 +62,8 @@ class GivenKeys {
     bool has(std::string_view key) const { return values_.contains(key); }
     /// A number as the value of a key, in the unit in which the key is written: "12 mm".
     std::string text(std::string_view key, double value) const;
+    /// The unit in which a key is given; that of the table of keys where it is not given, or without one.
+    std::string_view unit(std::string_view key) const;
     /// @throws core::InputError of one line: position of the key, key, what is wrong, what to write instead
     [[noreturn]] void fail(std::string_view key, std::string_view wrong, std::string_view instead) const;
     /// Refuses a length of a key below the least that it may have.

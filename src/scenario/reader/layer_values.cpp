@@ -204,10 +204,12 @@ void check_counts(Scenario const& scenario, GivenKeys const& given) {
 void complete_layer(Scenario& scenario, GivenKeys const& given) {
     Layer& layer = scenario.layer;
     double const largest = largest_diameter(scenario);
-    std::string const least =
-        fmt::format("4 diameters of the largest grains ({} each)", given.text("grains.diameter", largest));
-    given.require("layer.length", layer.length, 4 * largest, least);
-    given.require("layer.width", layer.width, 4 * largest, least);
+    if (layer.length < 4 * largest || layer.width < 4 * largest) {
+        std::string const least = fmt::format("4 diameters of the largest grains ({} each)",
+                                              given.text("grains.diameter", largest));
+        given.require("layer.length", layer.length, 4 * largest, least);
+        given.require("layer.width", layer.width, 4 * largest, least);
+    }
     // The floor's mesh has a triangle for every few grains on it.
     given.require_at_most("layer.length", layer.length * layer.width / (largest * largest),
                           most_grains_on_floor, "grains side by side on the floor",

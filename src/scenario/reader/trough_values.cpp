@@ -13,7 +13,7 @@ class TroughChecks {
     void complete() {
         trough_.given.is_stroke = given_.has("trough.stroke");
         trough_.given.is_turns =
-            given_.has("trough.frequency") && !given_.text("trough.frequency", 1).ends_with("Hz");
+            given_.has("trough.frequency") && !given_.unit("trough.frequency").ends_with("Hz");
         set_frequency();
         check_derived("trough.throw_number", throw_number(trough_));
         check_derived("trough.machine_number", machine_number(trough_));
