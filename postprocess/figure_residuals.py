@@ -9,7 +9,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import vibrotrough
 from figure_inputs import Input, panels, split_inputs
 from figure_style import COLOURS, MARKERS, corner, new_figure, plain_axes, points, save
 
