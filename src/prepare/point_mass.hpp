@@ -46,7 +46,7 @@ PointMassInputs with_friction(PointMassInputs inputs, double friction);
 theory::Motion solve(PointMassInputs const& inputs);
 
 /// The motion with the case's restitution. With rebounds a motion often has no period, and its efficiency is
-/// a mean with an interval, which takes a tenth of a second. None where the theory cannot answer: its
+/// a mean with an interval; it takes about a millisecond. None where the theory cannot answer: its
 /// restitution ends at theory::largest_restitution.
 std::optional<theory::ConveyorMotion> solve_with_restitution(PointMassInputs const& inputs);
 

@@ -167,7 +167,7 @@ def check_words(scripts):
     said = conclusion([case, other])
     assert said[0] == ("The layer is conveyed at 0.250 to 0.400 m/s. It is fastest, with 0.400 \u00b1 0.010 m/s "
                        "(14.1 \u00b1 0.35 t/h per metre of width), at friction 0.3."), said
-    assert said[1].startswith("The point-mass theory agrees with the layer to within the interval in 1 of 2 cases. The difference is "
+    assert said[1].startswith("The plastic point-mass theory agrees with the layer to within the interval in 1 of 2 cases. The difference is "
                               "largest at friction 0.3, where the layer reaches \u03b7 = 0.80 and the theory 0.51"), said
     assert said[2].startswith("All 2 cases are finished"), said
     assert conclusion([case])[1].endswith("agrees with the layer to within the interval."), conclusion([case])
