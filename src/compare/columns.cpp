@@ -110,6 +110,12 @@ std::vector<Column> theory_columns() {
          .value = field<&Row::efficiency_theory_restitution_half_width>,
          .meaning = "Half-width of the 95 % interval of efficiency_theory_restitution where that motion has "
                     "no period; unknown where it is exact"},
+    };
+}
+
+/// What is known of layers.
+std::vector<Column> model_columns() {
+    return {
         {.name = "efficiency_rolling_layer",
          .unit = "1",
          .value = field<&Row::efficiency_rolling_layer>,
@@ -140,7 +146,7 @@ std::vector<Column> theory_columns() {
     };
 }
 
-/// The layer beside the theory.
+/// The theory at the friction of the layer.
 std::vector<Column> layer_columns() {
     return {
         {.name = "friction_layer",
@@ -172,6 +178,12 @@ std::vector<Column> layer_columns() {
          .unit = "1",
          .value = field<&Row::mode_theory_layer>,
          .meaning = "Mode of the point mass at friction_layer"},
+    };
+}
+
+/// How layer and point mass differ and move.
+std::vector<Column> mode_columns() {
+    return {
         {.name = "difference",
          .unit = "1",
          .value = difference,
@@ -346,8 +358,14 @@ std::span<Column const> all_columns() {
             all.insert(all.end(), part.begin(), part.end());
         };
         for (Column const& column : measured_columns()) {
-            if (column.name == "efficiency_by_normal_force") add(theory_columns());
-            if (column.name == "conveying_speed_m_per_s") add(layer_columns());
+            if (column.name == "efficiency_by_normal_force") {
+                add(theory_columns());
+                add(model_columns());
+            }
+            if (column.name == "conveying_speed_m_per_s") {
+                add(layer_columns());
+                add(mode_columns());
+            }
             all.push_back(column);
         }
         add(run_columns());
