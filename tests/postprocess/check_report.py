@@ -253,7 +253,8 @@ def check_both_theories(scripts, folder, overview):
         with h5py.File(folder / "campaign.h5", "a") as file:
             file["throw_number"][...] = throw_numbers
         run_script(scripts, "figures.py", folder, "--only", "efficiency")
-        text = (folder / "report" / "efficiency.svg").read_text(encoding="utf-8")
+        texts = re.findall(r">([^<>]*)<", (folder / "report" / "efficiency.svg").read_text(encoding="utf-8"))
+        text = " ".join(" ".join(texts).split())  # a title may be wrapped
         for words in (plastic, "theory with restitution"):
             assert words in text, f"{words}: {throw_numbers}"
         assert "point-mass theory" not in text, "which of the two is said"
