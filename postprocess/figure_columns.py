@@ -17,12 +17,18 @@ from figure_style import COLOURS, EFFICIENCY, GREY, MARKERS, Problem, TooMany, W
 
 Row = dict[str, Any]
 Floats = NDArray[np.float64]
+Model = tuple[str, str, str, str, str]  # column, line and mark, and the words for these
 
 # What theory, law and atlas say of the same case, as efficiencies of the table; their lines and marks, and the words for these.
-MODELS = {
+MODELS: dict[str, Model] = {
     "point-mass theory": ("efficiency_theory", "-", "x", "solid", "cross"),
     "rolling-layer law": ("efficiency_rolling_layer", "--", "+", "dashed", "plus"),
     "atlas": ("efficiency_atlas", ":", "*", "dotted", "star"),
+}
+# A sweep of the restitution is drawn beside both theories.
+RESTITUTION_MODELS: dict[str, Model] = {
+    "plastic theory": MODELS["point-mass theory"],
+    "theory with restitution": ("efficiency_theory_restitution", "-.", "P", "dash-dotted", "thick plus"),
 }
 # Quantities that are an efficiency times a number that is known of each case.
 OF_EFFICIENCY = ("efficiency", "conveying_speed", "mass_flow", "mass_flow_per_width")
@@ -143,10 +149,22 @@ def label_of(row: Row, columns: Iterable[Mapping[str, Any]]) -> str:
     return ", ".join(words)
 
 
-def draw_models(axes: Axes, places: list[float], y: Shown, rows: list[Row], colour: str) -> set[str]:
+def sweeps_restitution(swept: Iterable[str]) -> bool:
+    """Whether the restitution of grains on the trough is among these keys."""
+    return any(key.endswith(("trough.restitution", "trough_restitution")) for key in swept)
+
+
+def models_of(swept: Iterable[str]) -> dict[str, Model]:
+    """The models that are drawn beside a campaign that sweeps these keys."""
+    if not sweeps_restitution(swept):
+        return MODELS
+    return RESTITUTION_MODELS | {name: one for name, one in MODELS.items() if name != "point-mass theory"}
+
+
+def draw_models(axes: Axes, places: list[float], y: Shown, rows: list[Row], colour: str, models: Mapping[str, Model]) -> set[str]:
     """The theory, the law and the atlas at the cases, joined by lines. The names of those that were drawn."""
     drawn = set()
-    for name, (column, dash, mark, _, _) in MODELS.items():
+    for name, (column, dash, mark, _, _) in models.items():
         values = []
         for row in rows:
             model, known = row.get(column), row.get("efficiency")
@@ -161,9 +179,10 @@ def draw_models(axes: Axes, places: list[float], y: Shown, rows: list[Row], colo
 
 def words_of_models(drawn: set[str], panels: Iterable[Axes]) -> str:
     """Which line is which model, or which mark where no series has more than one case."""
-    marks = {mark for _, _, mark, _, _ in MODELS.values()}
+    models = RESTITUTION_MODELS | MODELS
+    marks = {mark for _, _, mark, _, _ in models.values()}
     has_lines = any(line.get_marker() in marks and len(line.get_xdata()) > 1 for one in panels for line in one.lines)
-    return "; ".join(f"{line if has_lines else mark}: {name}" for name, (_, _, _, line, mark) in MODELS.items() if name in drawn)
+    return "; ".join(f"{line if has_lines else mark}: {name}" for name, (_, _, _, line, mark) in models.items() if name in drawn)
 
 
 def series_of(tables: list[Table], x: Shown, by: Sequence[str] | None) -> dict[str, list[Row]]:
@@ -200,6 +219,7 @@ def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str,
     plain_axes(axes)
     models: set[str] = set()
     left_out = drawn = 0
+    swept = {name for table in tables for name in table.swept}
     series = series_of(tables, x, by)
     for number, (name, members) in enumerate(series.items()):
         rows = sorted((row for row in members if math.isfinite(x.of(row)) and math.isfinite(y.of(row))), key=x.of)
@@ -211,7 +231,7 @@ def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str,
         axes.errorbar([x.of(row) for row in rows], [y.of(row) for row in rows], yerr=bars if np.isfinite(bars).any() else None, color=colour,
                       marker=MARKERS[(number + number // len(COLOURS)) % len(MARKERS)], linestyle="none", capsize=3, label=name)
         if base_name(y.column) in OF_EFFICIENCY:
-            models |= draw_models(axes, [x.of(row) for row in rows], y, rows, colour)
+            models |= draw_models(axes, [x.of(row) for row in rows], y, rows, colour, models_of(swept))
     if not drawn:
         raise WrongInput(why_nothing(tables, x, y))
     axes.set_xlabel(x.title)

@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 import vibrotrough
 from drawn_figures import read_note
-from figure_columns import draw_models, shown_as, words_of_models
+from figure_columns import RESTITUTION_MODELS, Model, draw_models, models_of, shown_as, sweeps_restitution, words_of_models
 from figure_inputs import Input, panels, split_inputs, swept_inputs
 from figure_style import (COLOURS, DASHES, EFFICIENCY, GREY, MARKERS, Problem, characters_across, corner, is_narrow, new_figure, plain_axes,
                           points, save)  # fmt: skip
@@ -186,14 +186,14 @@ def draw_theory(axes: Axes, series: Series, rows: list[int], theory: dict[LineKe
             axes.fill_between(places, efficiency - bands[line], efficiency + bands[line], color=colour, alpha=0.12, linewidth=0)
 
 
-def draw_models_at_cases(axes: Axes, series: Series, rows: list[int], at_cases: dict[str, dict[str, Any]]) -> set[str]:
-    """Over another input the program gives theory, law and atlas at the cases only. The names of those that were drawn."""
+def draw_models_at_cases(axes: Axes, series: Series, rows: list[int], at_cases: dict[str, dict[str, Any]], models: Mapping[str, Model]) -> set[str]:
+    """Over another input the program gives the models at the cases only. The names of those that were drawn."""
     places, _ = series.over.places()
     efficiency, drawn = shown_as({"name": "efficiency", "unit": "1", "type": "number"}), set()
     for colour, marker in sorted({(int(series.colours[row]), int(series.markers[row])) for row in rows}):
         members = sorted((row for row in rows if (series.colours[row], series.markers[row]) == (colour, marker)), key=lambda row: places[row])
         drawn |= draw_models(axes, [float(places[row]) for row in members], efficiency,
-                             [at_cases.get(str(series.columns["case"][row]), {}) for row in members], COLOURS[colour % len(COLOURS)])
+                             [at_cases.get(str(series.columns["case"][row]), {}) for row in members], COLOURS[colour % len(COLOURS)], models)
     return drawn
 
 
@@ -293,8 +293,10 @@ def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, o
     atlas = read_atlas(theory_file) if theory_file else {}
     series = Series(columns, units, attributes)
     told, models = "", set[str]()
+    swept = str(attributes.get("swept_keys", "")).split()
+    rebounds = {name: one for name, one in RESTITUTION_MODELS.items() if name == "theory with restitution" and sweeps_restitution(swept)}
     if series.is_over_throw_number():
-        told = ("; lines: point-mass theory" if theory else "") + ("; thin: rolling-layer law" if rolling else "")
+        told = (f"; lines: {'plastic' if rebounds else 'point-mass'} theory" if theory else "") + ("; thin: rolling-layer law" if rolling else "")
         told += "; dots with a band: atlas, 95 %" if atlas else ""
     shown = list(itertools.islice(series.panels.items(), MOST_PANELS))
     across = 1 if is_narrow() else min(len(shown), 2)
@@ -311,8 +313,9 @@ def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, o
             draw_theory(one, series, rows, rolling, {"linewidth": 0.8, "alpha": 0.7})
             draw_theory(one, series, rows, {key: line[:2] for key, line in atlas.items()}, {"linewidth": 1.2, "linestyle": ":"},
                         {key: line[2] for key, line in atlas.items()})
+            models |= draw_models_at_cases(one, series, rows, at_cases or {}, rebounds)  # whose fine curve differs from case to case
         elif at_cases:
-            models |= draw_models_at_cases(one, series, rows, at_cases)
+            models |= draw_models_at_cases(one, series, rows, at_cases, models_of(swept))
         draw(one, series, rows)
         mark_uncertain(one, series, rows, draw_branches(one, series, rows))
         one.set_title(name, fontsize=points(9)) if len(shown) > 1 else None

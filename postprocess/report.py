@@ -196,6 +196,19 @@ def table(cases: list[Case], columns: list[Column]) -> list[dict[str, Any]]:
             for case in cases]
 
 
+def differences_of(overview: dict[str, Any]) -> list[dict[str, str]]:
+    """The differences of `compare --contrast`, where the campaign sweeps exactly one key and both cases have a mean."""
+    told = []
+    for row in (overview.get("differences") or {"rows": []})["rows"]:
+        value, width = row["efficiency_difference"], row["efficiency_difference_half_width"]
+        if value is None:
+            continue
+        bars = "" if width is None else f" \u00b1 {width:.3f}"
+        told.append({"case": plain(row["label"]), "against": plain(row["against_label"]), "difference": f"{value:+.3f}{bars}",
+                     "significant": row["significant"] or ""})
+    return told
+
+
 def counts(cases: list[Case]) -> dict[str, int]:
     found: dict[str, int] = {}
     for case in cases:
@@ -236,6 +249,7 @@ def render(directory: pathlib.Path, output: pathlib.Path) -> str:
         overview=overview,
         conclusion=conclusion(cases),
         reasons=reasons(overview),
+        differences=differences_of(overview),
         engine=overview["engine_version"].replace(", git commit unknown", ""),
         commit="" if overview["git_commit"] == "unknown" else f" ({overview['git_commit']})",
         mode_letters=MODE_LETTERS,

@@ -74,8 +74,8 @@ def theory(cases: list[Case]) -> str:
     agree = sum(abs(difference(case)) <= (case.get("efficiency_half_width") or 0.0) for case in known)
     worst = max(known, key=lambda case: abs(difference(case)))
     side = "faster" if difference(worst) > 0 else "slower"
-    first = (f"The point-mass theory agrees with the layer to within the interval in {agree} of {len(known)} cases."
-             if len(known) > 1 else "The point-mass theory " + ("agrees with the layer to within the interval." if agree
+    first = (f"The plastic point-mass theory agrees with the layer to within the interval in {agree} of {len(known)} cases."
+             if len(known) > 1 else "The plastic point-mass theory " + ("agrees with the layer to within the interval." if agree
                                                                 else "does not agree with the layer to within the interval."))
     if agree == len(known):
         return first

@@ -31,6 +31,12 @@ std::string atlas_cell(Row const& row) {
     return core::three_digits(row.efficiency_atlas) + (width ? " +- " + core::three_digits(width) : "");
 }
 
+std::string restitution_cell(Row const& row) {
+    auto const width = row.efficiency_theory_restitution_half_width;
+    return core::three_digits(row.efficiency_theory_restitution) +
+           (width ? " +- " + core::three_digits(width) : "");
+}
+
 /// A mass flow in t/h with its half-width.
 std::string flow_cell(Row const& row, std::string const& quantity) {
     auto const flow = row.number(quantity), width = row.number(quantity + "_half_width");
@@ -84,11 +90,32 @@ std::vector<Column> theory_columns() {
         {.name = "efficiency_theory",
          .unit = "1",
          .value = field<&Row::efficiency_theory>,
-         .meaning = "Velocity efficiency of the plastic point mass at the friction of a grain on the trough; "
-                    "unknown when it has no mean speed",
+         .meaning =
+             "Velocity efficiency of the plastic point mass of the paper, whatever the restitution, at "
+             "the friction of a grain on the trough; unknown when it has no mean speed",
          .format = "{:.3f}",
          .terminal = TerminalView{.heading = "eta theory", .subheading = "at mu", .priority = 7},
-         .report = ReportView{.heading = "\u03b7, theory"}},
+         .report = ReportView{.heading = "\u03b7, theory (plastic)"}},
+        {.name = "efficiency_theory_restitution",
+         .unit = "1",
+         .value = field<&Row::efficiency_theory_restitution>,
+         .meaning = "Velocity efficiency of the same point mass with the restitution of a grain on the "
+                    "trough in place of a plastic landing; unknown without a mean speed and for a "
+                    "restitution above 0.95, which the theory refuses",
+         .format = "{:.3f}",
+         .report = ReportView{.heading = "\u03b7, theory (restitution)"},
+         .cell = restitution_cell},
+        {.name = "efficiency_theory_restitution_half_width",
+         .unit = "1",
+         .value = field<&Row::efficiency_theory_restitution_half_width>,
+         .meaning = "Half-width of the 95 % interval of efficiency_theory_restitution where that motion has "
+                    "no period; unknown where it is exact"},
+    };
+}
+
+/// What is known of layers.
+std::vector<Column> model_columns() {
+    return {
         {.name = "efficiency_rolling_layer",
          .unit = "1",
          .value = field<&Row::efficiency_rolling_layer>,
@@ -119,7 +146,7 @@ std::vector<Column> theory_columns() {
     };
 }
 
-/// The layer beside the theory.
+/// The theory at the friction of the layer.
 std::vector<Column> layer_columns() {
     return {
         {.name = "friction_layer",
@@ -151,6 +178,12 @@ std::vector<Column> layer_columns() {
          .unit = "1",
          .value = field<&Row::mode_theory_layer>,
          .meaning = "Mode of the point mass at friction_layer"},
+    };
+}
+
+/// How layer and point mass differ and move.
+std::vector<Column> mode_columns() {
+    return {
         {.name = "difference",
          .unit = "1",
          .value = difference,
@@ -163,10 +196,15 @@ std::vector<Column> layer_columns() {
         {.name = "mode_theory",
          .unit = "1",
          .value = field<&Row::mode_theory>,
-         .meaning = "Mode of that point mass: the phases of a period in order, P positive slide, N negative "
-                    "slide, R rest, F flight; a prime marks the slide right after a landing",
+         .meaning =
+             "Mode of the plastic point mass: the phases of a period in order, P positive slide, N negative "
+             "slide, R rest, F flight; a prime marks the slide right after a landing",
          .terminal = TerminalView{.heading = "mode", .subheading = "theory", .priority = 5},
          .report = ReportView{.heading = "mode, theory"}},
+        {.name = "mode_theory_restitution",
+         .unit = "1",
+         .value = field<&Row::mode_theory_restitution>,
+         .meaning = "Mode of the point mass with restitution; unknown when its motion has no period"},
         {.name = "layer_mode",
          .unit = "1",
          .value = field<&Row::layer_mode>,
@@ -290,7 +328,7 @@ std::optional<Value> Column::of(Row const& row) const {
         return i < values.size() ? values[i] : std::nullopt;
     };
     if (swept >= 0) return at(row.swept, swept);
-    if (stage >= 0) return at(row.stage, stage);
+    if (own >= 0) return at(row.own, own);
     if (observed >= 0) return at(row.observed, observed);
     if (measured >= 0) {
         auto known = at(row.measured, measured);
@@ -320,8 +358,14 @@ std::span<Column const> all_columns() {
             all.insert(all.end(), part.begin(), part.end());
         };
         for (Column const& column : measured_columns()) {
-            if (column.name == "efficiency_by_normal_force") add(theory_columns());
-            if (column.name == "conveying_speed_m_per_s") add(layer_columns());
+            if (column.name == "efficiency_by_normal_force") {
+                add(theory_columns());
+                add(model_columns());
+            }
+            if (column.name == "conveying_speed_m_per_s") {
+                add(layer_columns());
+                add(mode_columns());
+            }
             all.push_back(column);
         }
         add(run_columns());

@@ -38,7 +38,7 @@ struct Column {
     /// A function that gives the value of a row, none where it is not known. Its type is the column's type.
     using Function = std::variant<std::optional<double> (*)(Row const&), std::optional<int> (*)(Row const&),
                                   std::optional<std::string> (*)(Row const&)>;
-    Function value;  ///< gives the value of a row; of Row::swept, measured, stage and observed only the type
+    Function value;  ///< gives the value of a row; of Row::swept, measured, own and observed only the type
                      ///< counts
     std::string meaning;  ///< one sentence for people, in the reference and the report
     std::string_view format =
@@ -51,7 +51,7 @@ struct Column {
     std::string_view key = "";  ///< of the campaign file, another name for --filter and --sort; may be empty
     int swept = -1;             ///< place in Row::swept; negative for other columns
     int measured = -1;          ///< place in Row::measured; negative for other columns
-    int stage = -1;             ///< place in Row::stage; negative for other columns
+    int own = -1;               ///< place in Row::own; negative for other columns
     int observed = -1;          ///< place in Row::observed; negative for other columns
     double unit_factor = 1;     ///< of the values in `unit` against those in Row::measured
     double factor = 1;          ///< tables for people show the number times this, in the unit `shown_unit`
@@ -72,6 +72,10 @@ std::span<Column const> all_columns();
 /// All columns and one for each swept key that has none, named like the key. The columns of swept keys come
 /// right behind the case, and are left out last in the terminal.
 std::vector<Column> columns_with_swept(scenario::SweptKeys const& swept);
+
+/// Whether the restitution of grains on the trough is swept. The theory with restitution then has a column in
+/// the terminal, too.
+bool sweeps_restitution(scenario::SweptKeys const& swept);
 
 /// Adds the columns of a person's own quantities before the outcome, for each number one of its mean and one
 /// of its half-width. Those that the program has meanwhile a quantity of the same name for are left out.

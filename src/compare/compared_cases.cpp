@@ -56,6 +56,7 @@ ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity cons
     auto const observables = campaign::read_observables(plan.folder);
     ComparedCases found{.cases = {}, .rows = {}, .columns = columns_of(plan)};
     found.rows.resize(plan.cases.size());
+    found.estimates.resize(plan.cases.size());
     std::atomic<int> outdated = 0;  // cases are surveyed by several threads
     auto const add_row = [&](std::size_t i, campaign::CaseOverview const& one,
                              store::CaseRecord const* record) {
@@ -65,6 +66,7 @@ ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity cons
             friction = {*test->second.friction, *test->second.low, *test->second.high};
         std::optional<store::CaseRecord> measured;
         if (record != nullptr) measured = *record;
+        if (record != nullptr) found.estimates[i] = record->estimate;
         if (auto const known = numerics.find(planned.id); measured && known != numerics.end())
             measured->studied = known->second;
         Row row = compare(planned.id, *planned.prepared, measured, std::string(one.label()), friction);

@@ -2,7 +2,9 @@
 
 #include "campaign/state/overview.hpp"
 #include "compare/columns.hpp"
+#include "measure/case_estimate.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +17,8 @@ struct ComparedCases {
     std::vector<campaign::CaseOverview> cases;  ///< in the order of the plan
     std::vector<Row> rows;                      ///< of the same cases in the same order
     std::vector<Column> columns;                ///< of the rows, see columns_of()
+    /// Of the velocity efficiencies, in the same order; none without a result.
+    std::vector<std::optional<measure::CaseEstimate>> estimates = {};
     int outdated = 0;  ///< cases with observables of an earlier result, which no row has
 };
 

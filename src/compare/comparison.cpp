@@ -21,15 +21,18 @@ namespace vibrotrough::compare {
 namespace {
 
 /// The mode; none when the motion has none, for example when the mass runs away.
-std::optional<std::string> known_mode(theory::Motion const& motion) {
-    if (motion.mode.empty()) return {};
-    return motion.mode;
+std::optional<std::string> known_mode(std::string const& mode) {
+    if (mode.empty()) return {};
+    return mode;
 }
 
 void add_theory(Row& row, prepare::PointMassInputs const& point_mass) {
-    theory::Motion const motion = solve(point_mass);
-    row.mode_theory = known_mode(motion);
-    if (motion.converged) row.efficiency_theory = motion.velocity_efficiency;
+    prepare::PointMassTheory const theory = point_mass_theory(point_mass);
+    row.efficiency_theory = theory.efficiency;
+    row.mode_theory = known_mode(theory.mode);
+    row.efficiency_theory_restitution = theory.efficiency_restitution;
+    row.efficiency_theory_restitution_half_width = theory.half_width_restitution;
+    row.mode_theory_restitution = known_mode(theory.mode_restitution);
 }
 
 /// The efficiency of the rolling-layer law where it has been tested, else nothing.
@@ -73,7 +76,7 @@ void add_layer_theory(Row& row, prepare::PointMassInputs const& point_mass,
     row.friction_layer_low = measured.low;
     row.friction_layer_high = measured.high;
     theory::Motion const motion = solve(prepare::with_friction(point_mass, measured.friction));
-    row.mode_theory_layer = known_mode(motion);
+    row.mode_theory_layer = known_mode(motion.mode);
     if (motion.converged) row.efficiency_theory_layer = motion.velocity_efficiency;
 }
 
@@ -215,6 +218,10 @@ bool disagrees_with_atlas(Row const& row) {
     auto const simulated = row.number("efficiency"), width = row.number("efficiency_half_width");
     if (!simulated || !width || !row.efficiency_atlas) return false;
     return std::abs(*simulated - *row.efficiency_atlas) > *width + *row.efficiency_atlas_half_width;
+}
+
+bool is_without_restitution(Row const& row) {
+    return row.efficiency_theory && !row.efficiency_theory_restitution;
 }
 
 std::optional<std::string> larger_error(Row const& row) {

@@ -26,12 +26,12 @@ struct Row {
     double friction;                                 ///< coefficient, grain on trough
     double amplitude_m;                              ///< r in the direction of vibration, half the stroke, m
     double frequency_hz;                             ///< Hz
-    std::optional<double> efficiency_theory;         ///< none when the point mass has no mean speed
+    std::optional<double> efficiency_theory;         ///< plastic; none when the point mass has no mean speed
     std::optional<double> efficiency_rolling_layer;  ///< none outside the tested range of that law
     std::optional<double> efficiency_atlas;          ///< none outside the atlas of simulated layers
     std::optional<double> efficiency_atlas_half_width;  ///< of its 95 % interval
     std::optional<atlas::Place> atlas_place;            ///< where in the atlas it lies
-    std::optional<std::string> mode_theory;             ///< phases of that point mass in order
+    std::optional<std::string> mode_theory;             ///< phases of the plastic point mass in order
     std::optional<std::string> layer_mode;              ///< phases of the layer as a whole in order
     std::optional<double> friction_layer;               ///< of the layer as a whole, from a friction test
     std::optional<double> friction_layer_low;           ///< lower end of its interval
@@ -41,12 +41,16 @@ struct Row {
     std::string outcome;                                ///< how the case ended, or what it waits for
     /// Values of the campaign's swept keys in their order (columns_with_swept); angles in degrees.
     std::vector<std::optional<Value>> swept = {};
-    /// Of a row of stage_rows(): the values of its stage_columns(); empty in other rows.
-    std::vector<std::optional<Value>> stage = {};
+    /// Of a row of stage_rows() or contrast_rows(): the values that only these have; empty in other rows.
+    std::vector<std::optional<Value>> own = {};
     /// Of each number among the campaign's observables, in their order, the mean and the half-width.
     std::vector<std::optional<Value>> observed = {};
     /// Values of measured_quantities() in their order and units; empty without a result.
     std::vector<std::optional<Value>> measured = {};
+    std::optional<double> efficiency_theory_restitution =
+        {};  ///< with the case's; none where it has no answer
+    std::optional<double> efficiency_theory_restitution_half_width = {};  ///< none where it is exact
+    std::optional<std::string> mode_theory_restitution = {};              ///< phases of that point mass
     bool is_staged = false;  ///< whether its drive comes in stages, beside which no theory is shown
     std::optional<std::string> not_covered = {};  ///< by the engine's certificate; none when all is covered
     std::optional<std::string> soft = {};         ///< "soft" when the grains are too soft for the layer
@@ -71,6 +75,9 @@ bool is_borrowed(Row const& row);
 
 /// Whether the atlas and the simulation of a row are apart by more than both intervals.
 bool disagrees_with_atlas(Row const& row);
+
+/// Whether the theory with restitution has no answer for a row, although the plastic one has.
+bool is_without_restitution(Row const& row);
 
 /// "statistical" or "numerical": the larger of the half-width of the efficiency and its numerical error. None
 /// unless both are known.

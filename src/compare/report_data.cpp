@@ -2,6 +2,7 @@
 
 #include "atlas/atlas.hpp"
 #include "compare/compared_cases.hpp"
+#include "compare/contrasts.hpp"
 #include "compare/exports.hpp"
 #include "compare/point_mass_csv.hpp"
 #include "core/atomic_file.hpp"
@@ -61,6 +62,24 @@ Json cases_with_effects(ComparedCases const& compared) {
     return list;
 }
 
+/// The differences of a campaign that sweeps exactly one key; null of any other, because there are many ways
+/// to compare its cases.
+Json differences(campaign::Plan const& plan, ComparedCases const& compared) {
+    if (plan.swept.size() != 1) return nullptr;
+    std::string_view const key = plan.swept.front()->path;
+    auto const columns = contrast_columns(compared.columns, plan.swept);
+    Json rows = Json::array();
+    for (Row const& row : contrast_rows_of(plan, compared, key)) {
+        Json one = to_object(row, columns);
+        for (campaign::CaseOverview const& overview : compared.cases) {
+            if (overview.planned->id == row.id) one["label"] = overview.planned->label;
+            if (Json(overview.planned->id) == one["against"]) one["against_label"] = overview.planned->label;
+        }
+        rows.push_back(std::move(one));
+    }
+    return {{"key", key}, {"rows", std::move(rows)}};
+}
+
 }  // namespace
 
 std::vector<campaign::CaseOverview> write_report_data(campaign::Plan const& plan,
@@ -81,7 +100,8 @@ std::vector<campaign::CaseOverview> write_report_data(campaign::Plan const& plan
                     {"input", core::read_file(plan.folder / "campaign.toml", core::largest_note)},
                     {"columns", column_descriptions(compared.columns)},
                     {"swept", swept_list(plan)},
-                    {"cases", cases_with_effects(compared)}};
+                    {"cases", cases_with_effects(compared)},
+                    {"differences", differences(plan, compared)}};
     constexpr auto replace = Json::error_handler_t::replace;  // a user's text may not be UTF-8
     core::write_file_atomically(folder / "campaign.json", json.dump(2, ' ', false, replace) + "\n");
     core::write_file_atomically(folder / "theory_curves.csv", theory_curves_csv(compared.rows));

@@ -11,7 +11,8 @@ namespace vibrotrough::compare {
 ///
 /// In `folder`:
 /// - `campaign.json`: the campaign, its versions and its input, the columns of `compare` with their meanings,
-///   and every case's row of them with the reason when it failed;
+///   and every case's row of them with the reason when it failed; where exactly one key is swept, also the
+///   differences of `compare --contrast`;
 /// - `theory_curves.csv`: fine curves of velocity efficiency, the same as `compare --theory-curves`;
 /// - `point_mass/<id>.csv`: one period of the theory's point mass on each case's trough in SI units, empty
 ///   when its motion has no period.

@@ -14,13 +14,13 @@
 namespace vibrotrough::compare {
 namespace {
 
-/// The members of Row::stage before those of the table `stages`.
+/// The members of Row::own before those of the table `stages`.
 enum FirstValues { stage_number, speed_theory, speed_rolling_layer, first_of_table };
 
 std::optional<double> number_of(Row const& row, std::string_view name) {
     auto const& entries = store::case_table("stages").columns;
     auto const place = std::ranges::find(entries, name, &store::Entry::name) - entries.begin();
-    auto const value = row.stage.at(first_of_table + static_cast<std::size_t>(place));
+    auto const value = row.own.at(first_of_table + static_cast<std::size_t>(place));
     return value ? std::optional(std::get<double>(*value)) : std::nullopt;
 }
 
@@ -61,14 +61,14 @@ constexpr std::array shown{
           true},
 };
 
-/// A column of Row::stage.
+/// A column of Row::own.
 Column column_of(int place, std::string_view name, std::string_view unit, std::string_view meaning) {
     return {.name = std::string(name) + unit_suffix(unit),
             .unit = std::string(unit),
             .value = +[](Row const&) -> std::optional<double> { return {}; },
             .meaning = std::string(meaning),
             .format = "{:.4f}",
-            .stage = place};
+            .own = place};
 }
 
 /// The columns of the theory, behind that of the speed.
@@ -106,12 +106,12 @@ std::vector<Row> stage_rows(std::string const& id, prepare::PreparedCase const& 
         auto const speed = [&](std::optional<double> const& efficiency) {
             return efficiency ? known(*efficiency * alone.velocity_scale) : std::nullopt;
         };
-        row.stage.resize(first_of_table + stages.columns.size());
-        row.stage[speed_theory] = speed(row.efficiency_theory);
-        row.stage[speed_rolling_layer] = speed(row.efficiency_rolling_layer);
-        row.stage[stage_number] = static_cast<int>(i) + 1;
+        row.own.resize(first_of_table + stages.columns.size());
+        row.own[speed_theory] = speed(row.efficiency_theory);
+        row.own[speed_rolling_layer] = speed(row.efficiency_rolling_layer);
+        row.own[stage_number] = static_cast<int>(i) + 1;
         for (std::size_t column = 0; column < table.size(); ++column)
-            row.stage[first_of_table + column] = known(std::get<std::vector<double>>(table[column])[i]);
+            row.own[first_of_table + column] = known(std::get<std::vector<double>>(table[column])[i]);
         rows.push_back(std::move(row));
     }
     return rows;

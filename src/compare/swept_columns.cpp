@@ -71,6 +71,13 @@ void promote(Column& column, Key const& key) {
     if (!column.report) column.report = ReportView{.heading = scenario::short_name(key)};
 }
 
+/// A sweep of the restitution is compared with both theories in the terminal, too.
+void show_both_theories(std::vector<Column>& columns) {
+    std::ranges::find(columns, "efficiency_theory", &Column::name)->terminal->subheading = "plastic";
+    std::ranges::find(columns, "efficiency_theory_restitution", &Column::name)->terminal =
+        TerminalView{.heading = "eta theory", .subheading = "restitution", .priority = 7};
+}
+
 }  // namespace
 
 std::vector<Column> columns_with_swept(scenario::SweptKeys const& swept) {
@@ -84,7 +91,14 @@ std::vector<Column> columns_with_swept(scenario::SweptKeys const& swept) {
         }
         columns.insert(columns.begin() + 1 + static_cast<std::ptrdiff_t>(i), std::move(column));
     }
+    if (sweeps_restitution(swept)) show_both_theories(columns);
     return columns;
+}
+
+bool sweeps_restitution(scenario::SweptKeys const& swept) {
+    return std::ranges::any_of(swept, [](Key const* key) {
+        return key->path == "trough.restitution" || key->path.ends_with(".trough_restitution");
+    });
 }
 
 bool is_swept(Column const& column, scenario::SweptKeys const& swept) {

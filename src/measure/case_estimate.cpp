@@ -104,10 +104,6 @@ Deviation deviation_of(std::vector<double> const& means, double within, double f
     return {std::sqrt(std::max(pooled, variance_within)), both};
 }
 
-double level_after_stopping(double confidence) {
-    return 1 - stopping_share * (1 - confidence);
-}
-
 /// Mean and Student's interval, without what is left of a start-up.
 void add_interval(CaseEstimate& estimate, std::vector<double> const& means, Fluctuations const& within,
                   double level) {
@@ -140,6 +136,10 @@ CaseEstimate estimate_single(PackingValues const& packing, Precision const& want
 }
 
 }  // namespace
+
+double level_after_stopping(double confidence) {
+    return 1 - stopping_share * (1 - confidence);
+}
 
 int common_startup_length(Runs runs) {
     std::vector<double> mean(runs.front().size(), 0.0);

@@ -19,4 +19,8 @@ inline double student_quantile(double confidence, double degrees_of_freedom) {
     return boost::math::quantile(distribution, 0.5 + confidence / 2);
 }
 
+/// The level at which intervals of packings are computed so that they hold the truth with `confidence`,
+/// although packings are added until the interval is narrow enough; see estimate_case().
+double level_after_stopping(double confidence);
+
 }  // namespace vibrotrough::measure

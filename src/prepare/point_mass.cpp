@@ -1,5 +1,7 @@
 #include "prepare/point_mass.hpp"
 
+#include "scenario/model/materials.hpp"
+#include "theory/errors.hpp"
 #include "theory/inputs.hpp"
 
 #include <cmath>
@@ -77,7 +79,8 @@ PointMassInputs point_mass_inputs(scenario::Scenario const& scenario, scenario::
                                   double layer_height) {
     scenario::Trough const& trough = scenario.trough;
     PointMassInputs inputs{plain_inputs(scenario).conveyor(), 0,
-                           is_plain_sinusoid(trough) && !trough.side_wall_friction};
+                           is_plain_sinusoid(trough) && !trough.side_wall_friction,
+                           mean_trough_restitution(scenario)};
     set_drive(inputs, trough, motion);
     if (trough.side_wall_friction) {
         inputs.conveyor.wall_friction = *trough.side_wall_friction;
@@ -99,6 +102,32 @@ PointMassInputs with_friction(PointMassInputs inputs, double friction) {
 theory::Motion solve(PointMassInputs const& inputs) {
     if (inputs.is_plain) return theory::solve(inputs.conveyor.point);
     return theory::solve(inputs.conveyor).motion;
+}
+
+std::optional<theory::ConveyorMotion> solve_with_restitution(PointMassInputs const& inputs) {
+    if (inputs.restitution > theory::largest_restitution) return {};
+    theory::Conveyor conveyor = inputs.conveyor;
+    conveyor.restitution = inputs.restitution;
+    try {
+        return theory::solve(conveyor);
+    } catch (theory::PhaseError const&) {  // the plastic motion, which the paper has, may still be known
+        return {};
+    }
+}
+
+PointMassTheory point_mass_theory(PointMassInputs const& inputs) {
+    PointMassTheory known;
+    theory::Motion const plastic = solve(inputs);
+    known.mode = plastic.mode;
+    if (plastic.converged) known.efficiency = plastic.velocity_efficiency;
+    auto const rebounding = solve_with_restitution(inputs);
+    if (!rebounding) return known;
+    theory::Motion const& motion = rebounding->motion;
+    known.mode_restitution = motion.mode;
+    bool const is_mean = motion.outcome == theory::Outcome::unsettled;
+    if (motion.converged || is_mean) known.efficiency_restitution = motion.velocity_efficiency;
+    if (is_mean) known.half_width_restitution = rebounding->half_width;
+    return known;
 }
 
 }  // namespace vibrotrough::prepare

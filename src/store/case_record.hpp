@@ -8,6 +8,7 @@
 #include "measure/layer_profiles.hpp"
 #include "measure/open_flow.hpp"
 #include "measure/screening.hpp"
+#include "prepare/point_mass.hpp"
 #include "scenario/model/scenario.hpp"
 
 #include <optional>
@@ -72,6 +73,8 @@ struct CaseRecord {
     std::string layer_mode;               ///< of most packings, see measure::LayerMotion
     std::optional<CaseNumerics> studied =
         {};  ///< in place of the bounds of the numerical errors; not in result.h5
+    /// What the theory says of the case, for campaign.h5; not in result.h5, which holds what was measured.
+    prepare::PointMassTheory theory = {};
 
     /// The numerical error of the velocity efficiency: the one that was studied, else the bound that is known
     /// beforehand (prepare::numerical_errors). None when there is no mean, and for a rigid block, of whose

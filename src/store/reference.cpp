@@ -24,6 +24,12 @@ std::string_view type_of(Field<PackingRecord, Value> const& /*field*/) {
     return std::is_convertible_v<Value, std::optional<double>> ? real_type : word_type;
 }
 
+/// The type of what the theory says of a case.
+template <typename Value>
+std::string_view type_of_case(Field<CaseRecord, Value> const& /*field*/) {
+    return std::is_same_v<Value, std::string> ? word_type : real_type;
+}
+
 /// The root attributes that both files have.
 std::vector<NameInFile> head(std::string_view file) {
     return {{"@format", word_type, scalar, "1", fmt::format("The text \"vibrotrough {}\"", file)},
@@ -91,6 +97,9 @@ std::vector<NameInFile> names_in_campaign() {
     names.push_back({"@git_commit", word_type, scalar, "1", "Commit that this Vibrotrough was built from"});
     for (CaseFact const& fact : case_facts()) add(names, "", word_type, "cases", fact.entry);
     add_case(names, "", "cases");
+    for (CaseTheoryColumn const& one : case_theory_columns())
+        std::visit([&](auto const& field) { add(names, "", type_of_case(field), "cases", one.entry); },
+                   one.field);
     names.push_back(
         {"swept/<key>", "float64 or text", "cases", "of the key",
          "The values of a key that the campaign sweeps, such as swept/grains.rolling_friction, in "
@@ -104,8 +113,13 @@ std::vector<NameInFile> names_in_campaign() {
 std::string file_reference() {
     // What campaign.h5 has in common with result.h5 is in the first table.
     std::vector<NameInFile> own = names_in_campaign();
-    std::erase_if(own, [](NameInFile const& row) {
-        return row.shape == "cases" && row.units != "of the key" && !row.name.starts_with("observables/");
+    auto const is_of_theory = [](NameInFile const& row) {
+        return std::ranges::any_of(case_theory_columns(),
+                                   [&](auto const& one) { return one.entry.name == row.name; });
+    };
+    std::erase_if(own, [&](NameInFile const& row) {
+        return row.shape == "cases" && row.units != "of the key" && !row.name.starts_with("observables/") &&
+               !is_of_theory(row);
     });
     std::string facts;
     for (CaseFact const& fact : case_facts())

@@ -277,6 +277,8 @@ void fill_campaign(Hdf5Writer& file, CampaignContent const& content) {
         std::visit([&](auto const& field) { put(fact.entry, stored_values(cases, field)); }, fact.field);
     for (auto const& [one, meaning] : case_columns())
         put({std::string(one->name), std::string(one->units), meaning}, stored_values(*one, cases));
+    for (CaseTheoryColumn const& one : case_theory_columns())
+        std::visit([&](auto const& field) { put(one.entry, stored_values(cases, field)); }, one.field);
     for (scenario::Key const* const key : swept) put(swept_entry(*key), swept_values(*key, cases), "swept/");
     add_observables(file, cases, observables);
 }

@@ -68,6 +68,30 @@ std::vector<CaseFact> const& case_facts() {
     return facts;
 }
 
+std::vector<CaseTheoryColumn> const& case_theory_columns() {
+    using Theory = prepare::PointMassTheory;
+    auto const said = [](auto member) { return field(&CaseRecord::theory, member); };
+    static std::vector<CaseTheoryColumn> const columns{
+        {{"efficiency_theory", "1",
+          "Velocity efficiency of the plastic point mass of the paper, at the friction of a grain on the "
+          "trough; NaN without a mean speed"},
+         said(&Theory::efficiency)},
+        {{"mode_theory", "1", "Mode of the plastic point mass; empty when its motion has none"},
+         said(&Theory::mode)},
+        {{"efficiency_theory_restitution", "1",
+          "Velocity efficiency of the same point mass with the restitution of a grain on the trough; NaN "
+          "without a mean speed and for a restitution above 0.95"},
+         said(&Theory::efficiency_restitution)},
+        {{"efficiency_theory_restitution_half_width", "1",
+          "Half-width of its 95 % interval where the motion has no period; NaN where it is exact"},
+         said(&Theory::half_width_restitution)},
+        {{"mode_theory_restitution", "1",
+          "Mode of the point mass with restitution; empty when its motion has none"},
+         said(&Theory::mode_restitution)},
+    };
+    return columns;
+}
+
 std::vector<PackingTable> const& packing_tables() {
     static auto const all = joined({layer_tables(), material_tables(), open_tables(), screen_tables()});
     return all;

@@ -33,6 +33,16 @@ struct CaseFact {
 /// All facts of a case, in the order of the files.
 std::vector<CaseFact> const& case_facts();
 
+/// What the theory says of a case: a column of campaign.h5, which is not in result.h5.
+struct CaseTheoryColumn {
+    Entry entry;  ///< its description
+    /// Its place in the record.
+    std::variant<Field<CaseRecord, std::string>, Field<CaseRecord, std::optional<double>>> field;
+};
+
+/// What campaign.h5 has of the theory, in the order of the file.
+std::vector<CaseTheoryColumn> const& case_theory_columns();
+
 /// A column of a table of a packing.
 struct PackingColumn {
     Entry entry;                                      ///< its description

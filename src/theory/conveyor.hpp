@@ -17,6 +17,9 @@ struct Harmonic {
     double phase = 0;  ///< rad
 };
 
+/// The largest normal restitution coefficient that the theory takes.
+inline constexpr double largest_restitution = 0.95;
+
 /// The velocity with which a flight starts when it interrupts an N' slide (a backward slide after a landing).
 enum class FlightStart {
     actual_velocity,       ///< the mass keeps the velocity it has (this is the physics)

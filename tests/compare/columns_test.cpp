@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 /// The program's table and one column more. It is added here and nowhere else, and every view must have it.
 std::vector<Column> with_another_column() {
@@ -162,6 +163,23 @@ TEST(SweptColumns, AreInEveryView) {
     EXPECT_EQ(described.at(2).at("name"), "layer.height");
     EXPECT_EQ(described.at(2).at("report").at("factor"), 1e3);
     EXPECT_EQ(described.at(2).at("report").at("shown_unit"), "mm");
+}
+
+// The terminal has both theories only where the restitution is swept; the data always have them.
+TEST(SweptColumns, ARestitutionIsBesideBothTheories) {
+    SweptTable const swept("[sweep]\n\"trough.restitution\" = [0.2, 1.0]\n"), other("");
+    std::string const text = to_table(swept.rows, {}, swept.columns);
+    EXPECT_THAT(text, HasSubstr("eta theory   eta theory"));
+    EXPECT_THAT(text, HasSubstr("   plastic  restitution"));
+    EXPECT_THAT(to_table(other.rows, {}, other.columns), Not(HasSubstr("plastic")));
+    EXPECT_THAT(
+        to_csv(other.rows, other.columns),
+        HasSubstr(
+            ",efficiency_theory,efficiency_theory_restitution,efficiency_theory_restitution_half_width,"));
+    EXPECT_FALSE(is_without_restitution(swept.rows[0]));
+    EXPECT_TRUE(is_without_restitution(swept.rows[1])) << "the theory takes up to 0.95";
+    EXPECT_NE(swept.rows[0].efficiency_theory_restitution, swept.rows[0].efficiency_theory);
+    EXPECT_EQ(swept.rows[0].efficiency_theory, swept.rows[1].efficiency_theory);
 }
 
 // A key that always has a column gets no second one; the column comes first and is left out last.

@@ -167,7 +167,7 @@ def check_words(scripts):
     said = conclusion([case, other])
     assert said[0] == ("The layer is conveyed at 0.250 to 0.400 m/s. It is fastest, with 0.400 \u00b1 0.010 m/s "
                        "(14.1 \u00b1 0.35 t/h per metre of width), at friction 0.3."), said
-    assert said[1].startswith("The point-mass theory agrees with the layer to within the interval in 1 of 2 cases. The difference is "
+    assert said[1].startswith("The plastic point-mass theory agrees with the layer to within the interval in 1 of 2 cases. The difference is "
                               "largest at friction 0.3, where the layer reaches \u03b7 = 0.80 and the theory 0.51"), said
     assert said[2].startswith("All 2 cases are finished"), said
     assert conclusion([case])[1].endswith("agrees with the layer to within the interval."), conclusion([case])
@@ -228,6 +228,39 @@ def check_models_over_the_swept_key(scripts, folder):
         for words in (title, "grain rolling friction", "solid: point-mass theory", "dashed: rolling-layer law", "dotted: atlas"):
             assert words in text, f"{kind}: {words}"
     assert sum("models say of the same cases" in one for one in figures_in(scripts, folder)) == 2
+    check_both_theories(scripts, folder, overview)
+
+
+def check_both_theories(scripts, folder, overview):
+    """A sweep of the restitution is drawn beside the plastic theory and the one with restitution, over it and over the throw number."""
+    import h5py
+
+    key, data = "trough.restitution", folder / "report" / "data" / "campaign.json"
+    overview = json.loads(json.dumps(overview))
+    overview["swept"] = [{"key": key, "column": key}]
+    overview["columns"].append({"name": key, "key": key, "unit": "1", "type": "number", "meaning": "", "report": None})
+    for number, row in enumerate(overview["cases"]):
+        row |= {key: 0.2 + 0.3 * number, "efficiency_theory_restitution": 0.46 + 0.1 * number}
+    overview["differences"] = {"key": key, "rows": [
+        {"label": "restitution 0.5", "against_label": "restitution 0.2", "efficiency_difference": -0.1, "efficiency_difference_half_width": 0.02,
+         "significant": "yes"}]}
+    data.write_text(json.dumps(overview), encoding="utf-8")
+    with h5py.File(folder / "campaign.h5", "a") as file:
+        file.attrs["swept_keys"] = key
+        file[f"swept/{key}"] = [0.2, 0.5]
+        file[f"swept/{key}"].attrs["units"], file[f"swept/{key}"].attrs["description"] = "1", ""
+    for throw_numbers, plastic in (([2.1, 2.1], "solid: plastic theory"), ([2.1, 8.4], "lines: plastic theory")):
+        with h5py.File(folder / "campaign.h5", "a") as file:
+            file["throw_number"][...] = throw_numbers
+        run_script(scripts, "figures.py", folder, "--only", "efficiency")
+        texts = re.findall(r">([^<>]*)<", (folder / "report" / "efficiency.svg").read_text(encoding="utf-8"))
+        text = " ".join(" ".join(texts).split())  # a title may be wrapped
+        for words in (plastic, "theory with restitution"):
+            assert words in text, f"{words}: {throw_numbers}"
+        assert "point-mass theory" not in text, "which of the two is said"
+    (report,) = run_script(scripts, "report.py", folder)
+    page = report.read_text(encoding="utf-8")
+    assert "-0.100 \u00b1 0.020" in page and 'id="differences"' in page and "restitution 0.5" in page, "the table of differences"
 
 
 def check_stroke(scripts, folder):

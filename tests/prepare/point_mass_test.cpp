@@ -2,6 +2,7 @@
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -83,6 +84,44 @@ TEST(PointMassMotion, SeesSideWalls) {
     // A measured friction includes the walls' effect: the walls are left out.
     EXPECT_EQ(solve(with_friction(inputs(s), 0.23)).velocity_efficiency,
               solve(inputs(with_lines(""))).velocity_efficiency);
+}
+
+// What a user noticed of a level trough with tan(beta) = 0.5 and mu = 0.3, for throw numbers of 1.5, 2 and 3:
+// plastic 0.367, 0.621, 0.993; with e = 0.2 0.367, 0.563, 0.862 (three digits, so that rounding is 0.0005);
+// with e = 0.8 0.459, 0.461, 0.480, means of motions without a period, which their own intervals hold.
+TEST(PointMassMotion, WithRestitutionIsNotPlastic) {
+    constexpr std::array throw_numbers{1.5, 2.0, 3.0};
+    constexpr std::array plastic{0.367, 0.621, 0.993}, little{0.367, 0.563, 0.862}, much{0.459, 0.461, 0.480};
+    for (std::size_t i = 0; i < throw_numbers.size(); ++i) {
+        PointMassInputs point{.conveyor = {}, .start_phase = 0, .is_plain = true, .restitution = 0.2};
+        point.conveyor.point = {.throw_number = throw_numbers[i],
+                                .tan_vibration_angle = 0.5,
+                                .tan_inclination = 0,
+                                .friction = 0.3};
+        PointMassTheory const low = point_mass_theory(point);
+        EXPECT_NEAR(low.efficiency.value(), plastic[i], 0.0005);
+        EXPECT_NEAR(low.efficiency_restitution.value(), little[i], 0.0005);
+        EXPECT_FALSE(low.half_width_restitution) << "a motion with a period is known exactly";
+        EXPECT_FALSE(low.mode_restitution.empty());
+        point.restitution = 0.8;
+        PointMassTheory const high = point_mass_theory(point);
+        EXPECT_EQ(high.efficiency, low.efficiency) << "the paper's mass is plastic whatever the restitution";
+        EXPECT_EQ(high.mode, low.mode);
+        EXPECT_NEAR(high.efficiency_restitution.value(), much[i], high.half_width_restitution.value());
+        EXPECT_TRUE(high.mode_restitution.empty()) << "without a period there is no mode";
+    }
+}
+
+TEST(PointMassMotion, HasTheRestitutionOfTheCase) {
+    scenario::Scenario s = with_lines("");
+    s.trough.restitution = 0.37;
+    EXPECT_EQ(inputs(s).restitution, 0.37);
+    EXPECT_EQ(inputs(s).conveyor.restitution, 0) << "what the paper's theory takes";
+    s.trough.restitution = 1;  // the theory refuses more than 0.95
+    PointMassTheory const elastic = point_mass_theory(inputs(s));
+    EXPECT_TRUE(elastic.efficiency);
+    EXPECT_FALSE(elastic.efficiency_restitution || elastic.half_width_restitution);
+    EXPECT_TRUE(elastic.mode_restitution.empty());
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ TEST(Materials, WithoutAListThereIsOne) {
     EXPECT_EQ(mean_diameter(s), s.grains.diameter);
     EXPECT_EQ(mean_density(s), s.grains.density);
     EXPECT_EQ(mean_trough_friction(s), s.trough.friction);
+    EXPECT_EQ(mean_trough_restitution(s), s.trough.restitution);
     EXPECT_EQ(mean_grain_volume(s), mean_grain_volume(s.grains));
 }
 
@@ -50,7 +51,7 @@ TEST(Materials, WithoutAListThereIsOne) {
 // kg/m3 weighs four times one of 1.5 mm and 2800 kg/m3, so that 0.7 and 0.3 of the mass are 0.7 / 4 to 0.3 by
 // number.
 TEST(Materials, SharesOfTheMassBecomeNumbers) {
-    Scenario const s = single_case(with_lists(fines));
+    Scenario const s = single_case(with_lists(fines + "trough_restitution = 0.2\n"));
     auto const all = materials(s);
     ASSERT_EQ(all.size(), 2u);
     double const of_grains = 0.7 / 4 / (0.7 / 4 + 0.3);
@@ -61,6 +62,7 @@ TEST(Materials, SharesOfTheMassBecomeNumbers) {
     EXPECT_NEAR(mean_density(s), 1400 * v + 2800 * (1 - v), 1e-9);
     EXPECT_NEAR(mean_diameter(s), 0.003 * v + 0.0015 * (1 - v), 1e-15);
     EXPECT_NEAR(mean_trough_friction(s), 0.7 * 0.23 + 0.3 * 0.1, 1e-15);
+    EXPECT_NEAR(mean_trough_restitution(s), 0.7 * 0.5 + 0.3 * 0.2, 1e-15);
     EXPECT_NEAR(mean_grain_volume(s), of_grains * volume_of(0.003) + (1 - of_grains) * volume_of(0.0015),
                 1e-20);
 }

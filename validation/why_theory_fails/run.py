@@ -16,6 +16,7 @@ COLUMNS = ["rung", "throw_number", "vibration_angle_deg", "friction", "efficienc
            "layer_mode", "efficiency_by_normal_force", "landing_friction", "packings", "packing_efficiencies", "outcome", "modulus_MPa"]
 NAMES = {"efficiency": "efficiency", "half_width": "efficiency_half_width_statistics"}
 GAP, BEYOND = [1.5, 1.7, 2.0], [2.5, 3.0]
+RESTITUTIONS = {"4 deep, blocked": 0.5, "restitution 0.1": 0.1, "4 deep, free": 0.5, "restitution 0.9": 0.9}  # of trough and grains
 
 
 def measure(run: ValidationCase) -> None:
@@ -108,6 +109,20 @@ def spread(rungs: Rungs, names: list[str], gamma: float) -> float:
     return max(values) - min(values)
 
 
+def both_theories(run: ValidationCase, rungs: Rungs) -> None:
+    """Layers of spheres beside the plastic theory and beside the one with their restitution."""
+    points = [(rung, gamma, e) for rung, e in RESTITUTIONS.items() for gamma in rungs.numbers(rung)]
+    answers = run.batch(["throw_number", "tan_vibration_angle", "friction", "restitution"], [[gamma, 0.5, 0.23, e] for _, gamma, e in points])
+    rows = []
+    for (rung, gamma, e), answer in zip(points, answers):
+        layer, plastic = rungs.number(rung, gamma), rungs.number(rung, gamma, "efficiency_theory")
+        rebounding = float(answer["velocity_efficiency"])
+        nearer = "plastic" if abs(layer - plastic) < abs(layer - rebounding) else "restitution"
+        rows.append([rung, gamma, e, *(f"{value:.4f}" for value in (layer, plastic, rebounding, float(answer["half_width"]))), nearer])
+    run.follows("restitution.csv", ["rung", "throw_number", "restitution", "efficiency", "theory_plastic", "theory_restitution",
+                                    "theory_restitution_half_width", "nearer"], rows)
+
+
 def findings(run: ValidationCase, rungs: Rungs) -> None:
     elastic = spread(rungs, ["restitution 0.1", "4 deep, free", "restitution 0.9"], 2.0)
     rotation = rungs.step("4 deep, free", "4 deep, blocked", 2.0)
@@ -142,6 +157,7 @@ def main() -> None:
         measure(run)
     rungs = Rungs(run.table("result.csv"), swapped=run.control)
     judge(run, rungs)
+    both_theories(run, rungs)
     findings(run, rungs)
     if not run.control:
         draw.figure(run, rungs)

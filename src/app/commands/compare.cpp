@@ -3,10 +3,12 @@
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "compare/compared_cases.hpp"
+#include "compare/contrasts.hpp"
 #include "compare/exports.hpp"
 #include "compare/select.hpp"
 #include "compare/stage_rows.hpp"
 #include "compare/table.hpp"
+#include "theory/conveyor.hpp"
 
 #include <cstdlib>
 
@@ -23,9 +25,13 @@ struct CompareArguments {
     bool curves = false;
     bool budget = false;
     bool stages = false;
+    std::string against;
+    std::string contrast;
     std::string sort;
     std::vector<std::string> filters;
     std::string colour = "auto";
+
+    bool are_differences() const { return !against.empty() || !contrast.empty(); }
 };
 
 /// On a terminal the table fits its width and has colour, unless NO_COLOR is set (no-color.org).
@@ -51,6 +57,27 @@ void tell_disagreement(std::vector<compare::Row> const& rows) {
         fmt::join(ids, ", "));
 }
 
+/// Says once where the theory with restitution, which a sweep of it asks for, has no answer.
+void tell_without_restitution(std::vector<compare::Row> const& rows) {
+    auto const count = std::ranges::count_if(rows, compare::is_without_restitution);
+    if (count == 0) return;
+    fmt::print("The theory with restitution has no answer for {} case{}: it takes restitutions up to {}.\n",
+               count, count == 1 ? "" : "s", theory::largest_restitution);
+}
+
+/// The usual table, or that of differences.
+void print_table(std::vector<compare::Row> const& rows, std::span<compare::Column const> columns,
+                 campaign::Plan const& plan, CompareArguments const& options) {
+    fmt::print("{}", compare::to_table(rows, style_for(options.colour), columns));
+    if (options.are_differences()) {
+        fmt::print(
+            "Numerical errors that both cases have in common cancel; all others are in the interval.\n");
+        return;
+    }
+    if (compare::sweeps_restitution(plan.swept) && !options.stages) tell_without_restitution(rows);
+    tell_disagreement(rows);
+}
+
 /// The table with both errors.
 void print_budget(std::vector<compare::Row> const& rows, std::span<compare::Column const> columns,
                   CompareArguments const& options) {
@@ -64,20 +91,30 @@ void print_budget(std::vector<compare::Row> const& rows, std::span<compare::Colu
     }
 }
 
+void tell_outdated(int cases) {
+    if (cases == 0) return;
+    tell(
+        "vibrotrough: left aside: observables of {} case{}, which belong to an earlier result; "
+        "'vibrotrough observe' "
+        "measures them again\n",
+        cases, cases == 1 ? "" : "s");
+}
+
 int run_compare(CompareArguments const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     compare::ComparedCases compared = compare::compared_cases(plan, campaign::activity_in(plan.folder));
-    auto& [cases, rows, columns, outdated] = compared;
-    tell_left_aside(plan, cases);
-    if (outdated > 0)
-        tell(
-            "vibrotrough: left aside: observables of {} case{}, which belong to an earlier result; "
-            "'vibrotrough observe' "
-            "measures them again\n",
-            outdated, outdated == 1 ? "" : "s");
+    auto& rows = compared.rows;
+    auto& columns = compared.columns;
+    tell_left_aside(plan, compared.cases);
+    tell_outdated(compared.outdated);
     if (options.stages) {
         rows = compare::stage_rows(compared);
         columns = compare::stage_columns(columns);
+    }
+    if (options.are_differences()) {
+        rows = options.against.empty() ? compare::contrast_rows_of(plan, compared, options.contrast)
+                                       : compare::contrast_rows_against(compared, options.against);
+        columns = compare::contrast_columns(columns, plan.swept);
     }
     for (std::string const& condition : options.filters) rows = compare::filtered(rows, condition, columns);
     if (!options.sort.empty()) rows = compare::sorted(std::move(rows), options.sort, columns);
@@ -91,8 +128,7 @@ int run_compare(CompareArguments const& options) {
     } else if (options.budget) {
         print_budget(rows, columns, options);
     } else {
-        fmt::print("{}", compare::to_table(rows, style_for(options.colour), columns));
-        tell_disagreement(rows);
+        print_table(rows, columns, plan, options);
     }
     return all_well;
 }
@@ -119,6 +155,15 @@ With --stages, speed is that of the layer at the end of the stage and theory tha
 this stage never ends; 'distance' is how far the layer moves in the stage, and 'to speed' the time until its speed has
 changed by 95 % of what it changes.
 
+When the restitution of grains on the trough is swept, the table has both theories: 'plastic' is the paper's, which lands
+without a rebound whatever the restitution, and 'restitution' that of a point mass with the case's. Its half-width is given
+where it has no period. JSON, CSV and campaign.h5 always have both.
+
+With --against CASE, each line is a case less that one, and with --contrast KEY a case less the first of those that differ
+from it in this key alone. The interval is Welch's, from the packings of both, and has the numerical errors in it that do
+not cancel: cases that differ only in friction, restitution, rotation or rolling friction have theirs in common. 'significant'
+says whether the difference is larger than its half-width. Intervals of the cases that overlap do not show that they are equal.
+
 With --budget, eta DEM is followed by +- its statistical and +- its numerical error: half the width of the confidence
 interval of the packings, and how far Young's modulus, box and time step are from their limits. < marks a bound at 95 %
 that is known beforehand. 'vibrotrough convergence' replaces it by the error of the case itself; a star marks one that was
@@ -133,7 +178,21 @@ Examples:
   vibrotrough compare runs/demo --csv > demo.csv
   vibrotrough compare runs/demo --filter 'throw_number>1.8' --sort difference:desc
   vibrotrough compare runs/mine --filter 'grains.rolling_friction<0.1'
+  vibrotrough compare runs/mine --contrast grains.rotation
   vibrotrough compare runs/stages --stages)";
+
+void add_options_of_differences(CLI::App& command, CompareArguments& options) {
+    CLI::Option* const against = command.add_option(
+        "--against", options.against,
+        "Print the differences of the velocity efficiency of every case from this one, with their intervals");
+    CLI::Option* const contrast = command.add_option(
+        "--contrast", options.contrast,
+        "Print the differences between cases that differ only in this key, each less the first");
+    against->type_name("CASE")->excludes(contrast);
+    contrast->type_name("KEY");
+    for (CLI::Option* const one : {against, contrast})
+        for (char const* const other : {"--theory-curves", "--budget", "--stages"}) one->excludes(other);
+}
 
 void add_options(CLI::App& command, CompareArguments& options) {
     command.add_option("DIR", options.folder, "Folder of the campaign's results, as given to run --output")
@@ -159,6 +218,7 @@ void add_options(CLI::App& command, CompareArguments& options) {
             "the theory says of its drive")
         ->excludes("--theory-curves")
         ->excludes("--budget");
+    add_options_of_differences(command, options);
     add_text(command, "--sort", options.sort,
              "Sort by a column of the JSON or by 'difference' (DEM minus theory), for example "
              "difference:desc",

@@ -141,8 +141,9 @@ CaseOverview survey_readable(PlannedCase const& planned, bool has_driver) {
 }
 
 /// The summaries of all results that are there, in the order of the plan.
-/// @param keep  whether those that had to be read from the results are written beside them
-std::vector<store::CaseRecord> result_summaries(Plan const& plan, bool keep = false) {
+/// @param complete  whether they get what the theory says of them, and those that had to be read from the
+///                  results are written beside them
+std::vector<store::CaseRecord> result_summaries(Plan const& plan, bool complete = false) {
     auto const studied = read_case_numerics(plan);
     std::vector<store::CaseRecord> records;
     constexpr std::size_t part = 1024;  // all at once would fill the memory twice
@@ -153,8 +154,10 @@ std::vector<store::CaseRecord> result_summaries(Plan const& plan, bool keep = fa
                 PlannedCase const& planned = plan.cases[begin + i];
                 auto summary = find_summary(planned);
                 if (!summary) return;
-                if (keep && summary->is_from_result) write_summary(planned, summary->record);
+                if (complete && summary->is_from_result) write_summary(planned, summary->record);
                 found[i] = std::move(summary->record);
+                if (complete && planned.prepared->stages.empty())  // the theory is for one drive without end
+                    found[i]->theory = prepare::point_mass_theory(planned.prepared->point_mass);
                 if (auto const known = studied.find(planned.id); known != studied.end())
                     found[i]->studied = known->second;
             };

@@ -172,4 +172,9 @@ double mean_trough_friction(Scenario const& s) {
                     [&](Material const& m) { return mean_over_trough(s, parts, m); });
 }
 
+double mean_trough_restitution(Scenario const& s) {
+    if (s.materials.empty()) return s.trough.restitution;
+    return weighted(materials(s), mass_of_grain, [](Material const& m) { return m.trough_restitution; });
+}
+
 }  // namespace vibrotrough::scenario

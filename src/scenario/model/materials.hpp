@@ -102,4 +102,7 @@ double mean_density(Scenario const& scenario);
 /// Parts of a mesh with a friction of their own are weighted with their area in plan.
 double mean_trough_friction(Scenario const& scenario);
 
+/// Mean of the materials' restitution on the trough, weighted in the same way.
+double mean_trough_restitution(Scenario const& scenario);
+
 }  // namespace vibrotrough::scenario

@@ -57,7 +57,8 @@ void check_ranges(Conveyor const& c) {
     require_range(
         c.static_friction == 0 || (c.static_friction >= c.point.friction && c.static_friction <= 1e6),
         "static_friction", c.static_friction, "[friction, 1e6]");
-    require_range(c.restitution >= 0 && c.restitution <= 0.95, "restitution", c.restitution, "[0, 0.95]");
+    require_range(c.restitution >= 0 && c.restitution <= largest_restitution, "restitution", c.restitution,
+                  "[0, 0.95]");
     require_range(c.slowest_rebound >= 1e-9 && c.slowest_rebound <= 1, "slowest_rebound", c.slowest_rebound,
                   "[1e-9, 1]");
     require_range(!c.landing_friction || (*c.landing_friction >= 0 && *c.landing_friction <= 1e6),
