@@ -135,7 +135,7 @@ bool CsvReader::find_row() {
         if (row_.ends_with('\r')) row_.remove_suffix(1);
         row_line_ = line_;
         bool const is_comment = format_.comments && row_.starts_with('#');
-        if (!is_comment && !(format_.blanks && std::ranges::all_of(row_, is_space))) return true;
+        if (!is_comment && !(format_.blanks && std::all_of(row_.begin(), row_.end(), is_space))) return true;
         skip_line();
     }
     at_ = text_.size();

@@ -10,7 +10,6 @@ namespace {
 constexpr double radian = 180 / std::numbers::pi;    // degrees
 constexpr double largest_usual_frequency = 120;      // Hz; magnets at twice the mains' 60 Hz
 constexpr double largest_usual_amplitude = 0.05;     // m
-constexpr double largest_usual_machine_number = 9;   // K
 constexpr double largest_usual_friction = 1.5;       // of the mass on the trough
 constexpr double smallest_usual_angle = 0.028;       // rad, 1.6 degrees: 90 degrees written in radians
 constexpr double smallest_usual_bulk_density = 15;   // kg/m3; foamed polystyrene has about 20

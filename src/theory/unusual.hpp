@@ -9,7 +9,8 @@
 
 namespace vibrotrough::theory {
 
-inline constexpr double smallest_usual_frequency = 1;  ///< Hz
+inline constexpr double smallest_usual_frequency = 1;      ///< Hz
+inline constexpr double largest_usual_machine_number = 9;  ///< K
 
 /// What is known of a motion; nothing where an input was not given.
 struct MachineNumbers {
