@@ -85,7 +85,7 @@ TEST(TheoryPoint, AllCommandsWarnOfUnusualNumbers) {
         {design + "--friction 0.3 --vibration-angle '0.5 deg'", "were radians meant (28.6 degrees)?"},
         {"design --mass-flow '12 t/h' --bulk-density '0.6 kg/m3' --width '300 mm' --friction 0.3",
          "were 0.6 t/m3 meant (600 kg/m3)?"},
-        {design + "--friction 0.3 --stroke '9.7 m'", "were mm meant, not m?"},
+        {design + "--friction 0.3 --stroke '9.7 m'", "were 9.7 mm meant?"},
         {layer + "--friction 0.3 --bulk-density '0.6 kg/m3'", "were 0.6 t/m3 meant (600 kg/m3)?"},
         {layer + "--friction 0.3 --frequency '16 Hz'", "both given"},
     };
