@@ -15,10 +15,9 @@ namespace vibrotrough::app {
 inline constexpr std::string_view page_mark = "Vibrotrough</title>";
 
 /// The rule for files that a person names as outputs: one that this program did not write is replaced only
-/// with
-/// --force, and one that the command reads is never replaced.
+/// with --force, and one that the command reads is never replaced.
 struct Outputs {
-    bool force = false;
+    bool force = false;                         ///< --force was given
     std::vector<std::filesystem::path> inputs;  ///< files that the command reads
 
     /// Adds the option --force.
