@@ -138,7 +138,9 @@ def drawn(name: str, file: pathlib.Path, draw_one: Callable[[], list[pathlib.Pat
     except Problem:
         raise
     except Exception as error:  # a file may be whole and still hold anything
-        print(shown(f"figures.py: {name} is left out: {file} cannot be drawn ({one_line(error)}); delete it, and let vibrotrough make it again"),
+        cure = (f"{file} cannot be drawn ({one_line(error)}); delete it, and let vibrotrough make it again" if target.style is None
+                else f"{file} cannot be drawn in the style of {target.style} ({one_line(error)}); correct the style sheet or leave --style out")  # fmt: skip
+        print(shown(f"figures.py: {name} is left out: {cure}"),
               file=sys.stderr)
     plt.close("all")
     return []

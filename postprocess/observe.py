@@ -12,6 +12,7 @@ from __future__ import annotations
 import json
 import linecache
 import math
+import os
 import pathlib
 import sys
 import time
@@ -75,9 +76,11 @@ def numbers(value: object, dimensions: int, what: str, wanted: str) -> Floats:
     try:
         if value is None:  # which NumPy would take for NaN
             raise TypeError
-        array = np.asarray(value, dtype=float)
+        array = np.ma.asarray(value, dtype=float).filled(np.nan)  # what is masked has no value
     except (TypeError, ValueError):
         raise Refused(f"{what} returned {type(value).__name__}; {wanted}") from None
+    except OverflowError:
+        raise Refused(f"{what} returned a number that is too large; {wanted}") from None
     if array.ndim != dimensions:
         raise Refused(f"{what} returned an array of shape {array.shape}; {wanted}")
     return array
@@ -214,6 +217,7 @@ def answers(request: dict[str, Any], observables: list[Observable]) -> Iterator[
 
 
 def main() -> int:
+    os.dup2(2, 1)  # what a person's code prints must not stand within the answer of the program
     task, work = sys.argv[1], pathlib.Path(sys.argv[2])
     request = json.loads((work / "request.json").read_text(encoding="utf-8"))
     observables = load(work, request["file"])

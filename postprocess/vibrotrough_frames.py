@@ -180,8 +180,12 @@ class Frames(Sequence[Frame]):
             raise FileNotFoundError(f"packing {packing.number} of {packing.case.folder} kept no frames; write output.frames_per_cycle = 20 and "
                                     'output.frame_packings = "all" into the campaign file, and run it into a new folder')
         table = packing.table("dump/frames.csv")
+        steps = [int(step) for step in table["step"]]
+        self._steps = [step for step in steps if packing.file(f"dump/frames.{step}.dump").is_file()]
         # A last frame that the engine did not finish has no dump behind its line.
-        self._steps = [int(step) for step in table["step"] if packing.file(f"dump/frames.{int(step)}.dump").is_file()]
+        if self._steps not in (steps, steps[:-1]):
+            raise ValueError(f"{packing.folder / 'dump'} lacks {len(steps) - len(self._steps)} of its {len(steps)} frames, so that a mean over the others "
+                             "would be another one; put them back, or run the campaign into a new folder")  # fmt: skip
         self._trough = {int(step): np.array([x, z]) for step, x, z in zip(table["step"], table["trough_x"], table["trough_z"])}
         self._read = functools.lru_cache(maxsize=64)(self._read_frame)
 

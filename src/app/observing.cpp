@@ -171,6 +171,7 @@ void add_case(Observed& observed, Json const& answer, store::CaseRecord const& r
     std::vector<evaluate::ObservedPacking> packings;
     for (Json const& one : note::list(answer, "packings")) packings.push_back(packing_from(one));
     if (packings.empty()) {
+        observed.left_out.push_back(record.id);
         if (answer.at("has_needs").get<bool>()) observed.missing = has_no_value;
         return;
     }

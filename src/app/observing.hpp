@@ -29,6 +29,7 @@ ObservableSource read_observable_source(std::string const& file, std::string con
 struct Observed {
     store::Observable observable;  ///< with the cases in which it was measured
     std::string missing = {};      ///< what no packing has that it needs; empty when it was measured
+    std::vector<std::string> left_out = {};  ///< ids of the cases without a value
 };
 
 /// What was measured, or the exit code of Python, which has then said why.

@@ -99,6 +99,8 @@ int script_exit_code(std::string const& script, std::vector<std::string> const& 
                      std::string const& python, std::vector<std::string> const& modules) {
     // NumPy would start a thread for each core, and hangs where the user may have no more.
     ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
+    ::setenv("MPLBACKEND", "Agg", 1);  // all figures are files
+    ::unsetenv("PYTHONOPTIMIZE");      // with 2 a function has no docstring, which says what it measures
     std::vector<std::string> const candidates = python.empty()
                                                     ? std::vector<std::string>{"/usr/bin/python3", "python3"}
                                                     : std::vector{absolute_program(python)};

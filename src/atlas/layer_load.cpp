@@ -24,10 +24,11 @@ LayerLoad load_at(Place const& place) {
     return {value_of(added_mass, place), value_of(damping, place)};
 }
 
-Bounded power_per_mass(LayerLoad const& load, double amplitude, double frequency) {
+std::optional<Bounded> power_per_mass(LayerLoad const& load, double amplitude, double frequency) {
+    if (!(load.damping.value > 0)) return {};
     double const omega = 2 * std::numbers::pi * frequency;
     double const each = std::pow(omega, 3) * amplitude * amplitude / 2;
-    return {each * load.damping.value, each * load.damping.half_width};
+    return Bounded{each * load.damping.value, each * load.damping.half_width};
 }
 
 }  // namespace vibrotrough::atlas

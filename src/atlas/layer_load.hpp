@@ -2,6 +2,8 @@
 
 #include "atlas/surface.hpp"
 
+#include <optional>
+
 namespace vibrotrough::atlas {
 
 /// A number of which a 95 % interval is known.
@@ -23,9 +25,11 @@ struct LayerLoad {
 /// those of them that have these numbers. The half-widths contain what the layers scatter.
 LayerLoad load_at(Place const& place);
 
-/// W/kg, the mean power that a trough gives to its layer over the mass of the layer: damping times the mean
+/// W/kg, the mean power that a trough gives to its layer over the mass of the layer; none where the surface
+/// of the damping is not above zero, as it can be outside of what was simulated: no layer drives its trough.
+/// It is the damping times the mean
 /// square of the trough's velocity. It is exact for a sinusoidal drive, because only the first harmonic of
 /// the force works. @param amplitude  m @param frequency  Hz
-Bounded power_per_mass(LayerLoad const& load, double amplitude, double frequency);
+std::optional<Bounded> power_per_mass(LayerLoad const& load, double amplitude, double frequency);
 
 }  // namespace vibrotrough::atlas

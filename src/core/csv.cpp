@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -57,6 +58,25 @@ char find_separator(std::string_view text) {
     return has_tab && !has_comma ? '\t' : ',';
 }
 
+/// Whether a line that is not a comment has a comma between two digits.
+bool has_decimal_comma(std::string_view text) {
+    for (std::size_t comma = text.find(','); comma != std::string_view::npos;
+         comma = text.find(',', comma + 1)) {
+        if (comma == 0 || comma + 1 == text.size() || !is_digit(text[comma - 1]) ||
+            !is_digit(text[comma + 1]))
+            continue;
+        std::size_t const end_before = text.rfind('\n', comma);
+        if (text[end_before == std::string_view::npos ? 0 : end_before + 1] != '#') return true;
+    }
+    return false;
+}
+
+/// Whether it is a number such as 1.450, maybe with a unit, whose point may divide thousands.
+bool may_be_thousands(std::string_view cell) {
+    static std::regex const thousands(R"([+-]?[1-9]\d{0,2}(\.\d{3})+( .*)?)");
+    return cell.size() < 100 && std::regex_match(cell.begin(), cell.end(), thousands);
+}
+
 }  // namespace
 
 CsvError::CsvError(std::string const& file, int line, std::string const& problem, std::string_view cure)
@@ -79,6 +99,7 @@ void CsvReader::read_header() {
         fail_at(1, "the file is empty", "begin it with a line of column names");
     }
     separator_ = find_separator(text_.substr(at_));
+    has_decimal_commas_ = separator_ != ',' && has_decimal_comma(text_);
     if (!split()) return;  // the header of this growing text is not complete yet
     header_line_ = row_line_;
     columns_.assign(cells_.begin(), cells_.end());
@@ -207,7 +228,18 @@ bool CsvReader::next() {
                  ? "write one value per column; numbers with a decimal comma need a semicolon or a tab "
                    "between the cells"
                  : "write one value per column");
+    if (has_decimal_commas_) refuse_thousands();
     return true;
+}
+
+void CsvReader::refuse_thousands() const {
+    for (std::string_view const cell : cells_)
+        if (may_be_thousands(cell))
+            fail(fmt::format(
+                     "'{}' can be read with and without thousands, as other numbers of this file have a "
+                     "decimal comma",
+                     cell),
+                 "write 1450 or 1,450");
 }
 
 void CsvReader::count_row() {

@@ -56,7 +56,8 @@ struct CsvFormat {
 ///
 /// - The separator is ';' where the header line has one outside quotes, a tab where it has a tab and no
 /// comma,
-///   and ',' otherwise. Where it is not the comma, numbers may have a decimal comma.
+///   and ',' otherwise. Where it is not the comma, numbers may have a decimal comma. Beside such numbers
+///   1.450 is refused, because it may be 1450.
 /// - A cell in double quotes may hold separators, line ends and doubled quotes. Spaces and tabs around a
 ///   cell do not belong to it unless they are within its quotes.
 /// - Lines end with LF or CR LF. A UTF-8 byte order mark is skipped.
@@ -109,6 +110,7 @@ class CsvReader {
     void skip_spaces();
     void read_header();
     void check_columns() const;
+    void refuse_thousands() const;
     bool parse_numbers(std::span<double> row) const;
     [[noreturn]] void fail_at(int line, std::string const& problem, std::string_view cure) const;
 
@@ -117,6 +119,7 @@ class CsvReader {
     CsvFormat format_;
     std::vector<std::string> columns_;
     char separator_ = ',';
+    bool has_decimal_commas_ = false;
     int header_line_ = 0;
     std::size_t at_ = 0;  ///< index in `text_` at which the row or the next one begins
     int line_ = 1;        ///< the line at `at_`

@@ -1,9 +1,17 @@
 #include "core/note.hpp"
 
+#include "core/hash.hpp"
+
 #include <fmt/format.h>
 
 namespace vibrotrough::core::note {
 namespace {
+
+constexpr char const* seal = "sha256";
+
+std::string digest_of(Json const& note) {
+    return sha256_hex(note.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
 
 Json const& member(Json const& note, std::string_view key) {
     if (!note.is_object()) throw Fault("it is not an object");
@@ -40,6 +48,22 @@ Json parse(std::string_view text) {
     } catch (Json::out_of_range const&) {
         throw Fault("it holds a number that is too large");
     }
+}
+
+std::string sealed(Json note) {
+    note.erase(seal);
+    note[seal] = digest_of(note);
+    return note.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json parse_sealed(std::string_view text) {
+    Json note = parse(text);
+    if (!note.is_object() || !note.contains(seal)) return note;
+    std::string const written = note::text(note, seal);
+    note.erase(seal);
+    if (written != digest_of(note))
+        throw Fault("it was changed since it was written: its numbers have another SHA-256");
+    return note;
 }
 
 Json const& object(Json const& note, std::string_view key) {

@@ -27,6 +27,13 @@ class Fault : public InputError {
 /// The value that a text holds. @throws Fault unless it is JSON
 Json parse(std::string_view text);
 
+/// The text of a note, an object, with the SHA-256 of the rest as its last member, by which parse_sealed()
+/// sees whether a number was edited since.
+std::string sealed(Json note);
+/// The value that such a text holds, or that an older program wrote without a digest.
+/// @throws Fault when it is not JSON, or another content than was written
+Json parse_sealed(std::string_view text);
+
 /// A member that is an object. @throws Fault when it is missing or something else
 Json const& object(Json const& note, std::string_view key);
 /// A member that is a list. @throws Fault when it is missing or something else

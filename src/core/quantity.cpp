@@ -108,6 +108,15 @@ void check_ton(std::string_view text) {
                         "write t for metric tonnes (1000 kg), short_ton (907 kg) or long_ton (1016 kg)");
 }
 
+/// udunits2 reads mt as a milli-tonne, a kilogram. Who writes it means metric tonnes.
+void check_prefix_of_tonne(std::string_view text) {
+    static std::regex const prefixed(
+        R"((^|[^A-Za-z_])((da|[dmunh])t|(deci|centi|milli|micro|nano|hecto|deca)(metric_)?tonn?es?)($|[^A-Za-z_]))");
+    if (!std::regex_search(std::string(text), prefixed)) return;
+    throw QuantityError(fmt::format("'{}' has a prefix that nobody uses with t", text),
+                        "write t for metric tonnes (1000 kg), kg for kilograms");
+}
+
 /// A frequency counts cycles, and a turn of the shaft is one cycle of the drive: "rpm" becomes "1/minute" and
 /// "turns / s" becomes "1 / s". In udunits2 a turn is an angle, 2 pi.
 std::string turns_as_cycles(std::string const& text) {
@@ -179,6 +188,7 @@ double parse_quantity(std::string_view text, std::string const& unit) {
     if (rest.empty()) throw QuantityError(fmt::format("'{}' has no unit", whole));
     check_unit_text(rest);
     check_ton(rest);
+    check_prefix_of_tonne(rest);
     std::string written = (rest.front() == '/' ? "1" : "") + std::string(rest);  // "340 / minute"
     if (unit == "Hz") written = turns_as_cycles(written);
     static std::mutex one_caller;  // the scanner of udunits2 is not for several threads

@@ -22,7 +22,8 @@ TemporaryFolder::TemporaryFolder(std::string_view purpose) {
             fmt::format("there is no folder for temporary files ({}); set TMPDIR to a folder that exists",
                         failure.message()));
     }
-    std::string name = (parent / fmt::format("{}-XXXXXX", purpose)).string();
+    // The folder is also used by programs that are started elsewhere.
+    std::string name = (fs::absolute(parent) / fmt::format("{}-XXXXXX", purpose)).string();
     if (::mkdtemp(name.data()) == nullptr) {
         throw MissingError(
             fmt::format("cannot make a temporary folder in {} ({}); set TMPDIR to another folder",

@@ -1,5 +1,6 @@
 #include "engine/engine.hpp"
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/temporary_folder.hpp"
@@ -36,9 +37,16 @@ using namespace std::chrono_literals;
 using namespace std::string_literals;
 
 /// Runs in the child before the engine starts: leaves the process group of the terminal and asks to be killed
-/// when the driver dies. The child shares the driver's memory (vfork) and must not write to it.
+/// when the driver dies. No file of the engine may grow larger than this program reads: an engine that
+/// repeats a warning for ever would fill the disk. The child shares the driver's memory (vfork) and must not
+/// write to it.
 void prepare_child(pid_t driver) {
     ::setpgid(0, 0);
+    rlimit size{};
+    if (::getrlimit(RLIMIT_FSIZE, &size) == 0 && size.rlim_cur > core::largest_file) {
+        size.rlim_cur = core::largest_file;
+        ::setrlimit(RLIMIT_FSIZE, &size);
+    }
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != driver) ::_exit(1);  // the driver has died in the meantime
 }

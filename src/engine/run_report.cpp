@@ -18,6 +18,9 @@
 namespace vibrotrough::engine {
 namespace {
 
+/// Bytes; an engine that writes more repeats itself.
+constexpr std::size_t largest_output = std::size_t{256} << 20;
+
 /// Messages of the engine can hold garbage bytes.
 std::string clean(std::string const& text) {
     return core::harmless(text.substr(0, 300));
@@ -88,7 +91,7 @@ RunReport named_failure(std::string const& text) {
 
 std::string text_of_output(std::filesystem::path const& path) {
     try {
-        return core::read_file(path);
+        return core::read_file(path, largest_output);
     } catch (core::MissingError const&) {
         return {};
     }

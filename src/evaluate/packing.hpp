@@ -58,14 +58,19 @@ struct UnusableOutputs {
     std::string message;    ///< one line for people
 };
 
-/// Evaluates a packing whose engine ended normally: checks that all cycles and phases are there and that the
-/// trough carried the layer's weight, and measures everything that the case's result will need.
+/// Whether the deck that was run is the scenario's, or a person may have given it another frequency.
+enum class DeckOf { scenario, hand };
+
+/// Evaluates a packing whose engine ended normally: checks that all cycles and phases are there, that every
+/// number is finite, that displacements and velocities say the same, and that the trough carried the layer's
+/// weight, and measures everything that the case's result will need.
 /// @param packing    its number, from 1
 /// @param last_step  of the engine
 /// @return the record without wall time and deck, which only the caller knows, or why there is none
 std::variant<store::PackingRecord, UnusableOutputs> evaluate_outputs(prepare::PreparedCase const& prepared,
                                                                      int packing, PackingFiles const& files,
-                                                                     long last_step);
+                                                                     long last_step,
+                                                                     DeckOf deck = DeckOf::scenario);
 
 /// A finished packing from its folder; none when it is not finished.
 /// @param cycles  of the run that are used; the others are left out

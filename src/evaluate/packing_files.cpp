@@ -2,6 +2,7 @@
 
 #include "core/hash.hpp"
 #include "core/note.hpp"
+#include "measure/cycle_series.hpp"
 
 #include <algorithm>
 
@@ -16,7 +17,8 @@ constexpr char const* marker_file = "packing.json";
 
 core::TextFile read_if_there(fs::path const& path) {
     std::error_code missing;
-    return fs::is_regular_file(path, missing) ? core::read_text_file(path) : core::TextFile{path, {}};
+    if (!fs::is_regular_file(path, missing)) return {path, {}};
+    return path.filename() == "cycles.csv" ? measure::cycles_text(path) : core::read_text_file(path);
 }
 
 std::string digest_of_layer(PackingFiles const& files) {

@@ -31,8 +31,9 @@ double power(DesignTask const& t, RiskDesign const& d) {
 std::optional<atlas::Bounded> atlas_power(DesignTask const& t, RiskDesign const& d) {
     auto const load = load_of(t, d);
     if (!load) return {};
-    auto const [value, half_width] = power_per_mass(*load, d.drive.amplitude, d.drive.frequency);
-    return atlas::Bounded{value * material(t, d), half_width * material(t, d)};
+    auto const power = power_per_mass(*load, d.drive.amplitude, d.drive.frequency);
+    if (!power) return {};
+    return atlas::Bounded{power->value * material(t, d), power->half_width * material(t, d)};
 }
 
 /// A number that says how probable something is; none where that is not known.

@@ -3,6 +3,8 @@
 #include "core/error.hpp"
 #include "measure/table_file.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 #include <string>
@@ -43,8 +45,12 @@ void append(CycleSeries& series, std::span<double const> row) {
 
 }  // namespace
 
+core::TextFile cycles_text(std::filesystem::path const& path) {
+    return {path, core::read_file(path, std::size_t{256} << 20)};
+}
+
 CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, int grains, int materials) {
-    return parse_cycles(core::read_text_file(path), steps_per_cycle, grains, materials);
+    return parse_cycles(cycles_text(path), steps_per_cycle, grains, materials);
 }
 
 CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int grains, int materials) {
@@ -112,6 +118,31 @@ CycleSeries first_cycles(CycleSeries const& series, int cycles) {
         cut(*over_cycles, cycles);
     }
     return result;
+}
+
+bool is_finite(CycleSeries const& series) {
+    std::vector<std::vector<double> const*> all{&series.x,
+                                                &series.z,
+                                                &series.vz,
+                                                &series.mean_velocity,
+                                                &series.normal_force,
+                                                &series.tangential_force,
+                                                &series.flight_fraction};
+    for (MaterialSeries const& one : series.materials) all.insert(all.end(), {&one.x, &one.z});
+    OpenSeries open = series.open;
+    for (auto* const list : open.lists()) all.push_back(list);
+    return std::ranges::all_of(all, [](auto const* values) {
+        return std::ranges::all_of(*values, [](double value) { return std::isfinite(value); });
+    });
+}
+
+double difference_of_speeds(CycleSeries const& series, std::span<double const> durations) {
+    double largest = 0;
+    for (std::size_t i = 0; i < series.mean_velocity.size() && i < durations.size(); ++i) {
+        double const displaced = (series.x[i + 1] - series.x[i]) / durations[i];
+        largest = std::max(largest, std::abs(displaced - series.mean_velocity[i]));
+    }
+    return largest;
 }
 
 double weight_by_momentum(CycleSeries const& series, double mass, double period) {

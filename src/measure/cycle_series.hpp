@@ -55,6 +55,10 @@ struct CycleSeries {
     int cycles() const { return static_cast<int>(normal_force.size()); }
 };
 
+/// cycles.csv, which for 200,000 cycles of fifty columns has 256 MB: a larger one is not read.
+/// @throws MissingError if the file does not exist, or is larger
+core::TextFile cycles_text(std::filesystem::path const& path);
+
 /// Reads cycles.csv as written by the deck. A last line without a line end is left out, because the engine
 /// may still be writing it.
 /// @throws InputError naming file and line when a line is damaged, or a cycle or grains are missing
@@ -73,6 +77,14 @@ CycleSeries parse_open_cycles(core::TextFile const& file, int steps_per_cycle, i
 
 /// The first `cycles` cycles of a series that has at least that many.
 CycleSeries first_cycles(CycleSeries const& series, int cycles);
+
+/// Whether no number of the series is NaN or infinite.
+bool is_finite(CycleSeries const& series);
+
+/// The largest difference in any cycle between the two mean speeds that the engine tells: the displacement of
+/// the centre of mass over the duration of the cycle, and the mean of its velocity over the steps, m/s.
+/// @param durations  of the cycles, s
+double difference_of_speeds(CycleSeries const& series, std::span<double const> durations);
 
 /// The weight of the layer from the momentum balance over all cycles, N: the mean force on the trough minus
 /// the change of the layer's momentum per time, W = mean(F_z) - m (v_z(n) - v_z(0)) / (n T). It is exact up

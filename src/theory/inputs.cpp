@@ -1,5 +1,7 @@
 #include "theory/inputs.hpp"
 
+#include "theory/detail/ranges.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -39,6 +41,18 @@ struct OtherUnit {
 };
 constexpr std::array other_units{OtherUnit{"rpm", {Input::frequency_hz, 1.0 / 60}},
                                  OtherUnit{"amplitude_mm", {Input::amplitude_m, 1e-3}}};
+
+// The ranges of the campaign file. A tangent has the same value after half a turn, where the trough would be
+// upside down.
+double tangent_of_inclination(double degrees) {
+    detail::require_range(std::abs(degrees) <= 45, "inclination_deg", degrees, "[-45, 45]");
+    return std::tan(degrees * degree);
+}
+
+double tangent_of_vibration_angle(double degrees) {
+    detail::require_range(degrees >= 0 && degrees <= 89, "vibration_angle_deg", degrees, "[0, 89]");
+    return std::tan(degrees * degree);
+}
 
 }  // namespace
 
@@ -115,9 +129,10 @@ PointMass Inputs::point() const {
     PointMass p{};
     p.friction = *get(Input::friction);
     if (auto const tan_alpha = get(Input::tan_inclination)) p.tan_inclination = *tan_alpha;
-    if (auto const alpha = get(Input::inclination_deg)) p.tan_inclination = std::tan(*alpha * degree);
+    if (auto const alpha = get(Input::inclination_deg)) p.tan_inclination = tangent_of_inclination(*alpha);
     if (auto const tan_beta = get(Input::tan_vibration_angle)) p.tan_vibration_angle = *tan_beta;
-    if (auto const beta = get(Input::vibration_angle_deg)) p.tan_vibration_angle = std::tan(*beta * degree);
+    if (auto const beta = get(Input::vibration_angle_deg))
+        p.tan_vibration_angle = tangent_of_vibration_angle(*beta);
     if (auto const gamma = get(Input::throw_number)) {
         p.throw_number = *gamma;
     } else {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <vtkCellArray.h>
+#include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
@@ -27,6 +28,13 @@ namespace {
 double spacing(theory::MapAxis const& axis) {
     double const step = axis.count > 1 ? (axis.to - axis.from) / (axis.count - 1) : 1;
     return step != 0 ? step : 1;
+}
+
+void mark(vtkDataObject& data) {
+    vtkNew<vtkStringArray> array;
+    array->SetName(theory_map_mark);
+    array->InsertNextValue("written by vibrotrough theory map");
+    data.GetFieldData()->AddArray(array);
 }
 
 }  // namespace
@@ -64,6 +72,7 @@ void write_theory_image(std::filesystem::path const& path, theory::Map const& ma
     for (theory::ModeCode const code : modes)
         names->InsertNextValue(code == 0 ? "none" : theory::to_string(code));
     image->GetFieldData()->AddArray(names);
+    mark(*image);
     vtkNew<vtkXMLImageDataWriter> writer;
     writer->SetInputData(image);
     writer->SetDataModeToBinary();  // not appended: ParaView 5.11 reads appended data as an empty scene
@@ -85,6 +94,7 @@ void write_theory_boundaries(std::filesystem::path const& path, theory::Map cons
     }
     lines->SetPoints(points);
     lines->SetLines(cells);
+    mark(*lines);
     write_vtp(path, *lines);
 }
 

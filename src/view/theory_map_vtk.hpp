@@ -6,6 +6,9 @@
 
 namespace vibrotrough::view {
 
+/// By which both files of a map are recognised: the name of an array without meaning near their begin.
+inline constexpr char const* theory_map_mark = "vibrotrough_theory_map";
+
 /// Writes a map of the point-mass theory for ParaView to `path` (.vti): velocity efficiency, mode and period
 /// at the points of the grid, with the two inputs as x and y. Infinite efficiencies are written as NaN. The
 /// data are inline binary; the file is written under a temporary name and renamed.

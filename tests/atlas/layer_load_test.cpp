@@ -23,9 +23,15 @@ Place middle() {
 TEST(LayerLoad, PowerIsThatOfTheDamping) {
     LayerLoad const load{{0.3, 0.02}, {0.2, 0.05}};
     double const omega = 2 * std::numbers::pi * 16, amplitude = 0.004;
-    auto const [power, half_width] = power_per_mass(load, amplitude, 16);
+    auto const [power, half_width] = power_per_mass(load, amplitude, 16).value();
     EXPECT_NEAR(power, 0.2 * omega * std::pow(omega * amplitude, 2) / 2, 1e-9 * power);
     EXPECT_NEAR(half_width, power / 4, 1e-9 * power);
+}
+
+// Outside of the simulated layers the surface of the damping may be negative; a layer never drives its
+// trough.
+TEST(LayerLoad, NoPowerIsToldWhereTheDampingIsNegative) {
+    EXPECT_FALSE(power_per_mass({{0.3, 0.02}, {-0.01, 0.05}}, 0.004, 16));
 }
 
 // Each layer is met within the half-width there and its own, but for the share that 95 % intervals leave out.

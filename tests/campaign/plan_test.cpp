@@ -103,6 +103,8 @@ TEST(CaseId, ChangesWithEveryInput) {
         {"rolling_friction = 0.0", "rotation = \"blocked\""},
         {"diameter_spread = 0.1", "shape = \"cube\""},
         {"restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0.3"},
+        {"restitution = 0.5",
+         "restitution = 0.5\nwidth = \"300 mm\""},  // else result.h5 had another mass flow
         {"amplitude", "along_phase = \"1 deg\"\namplitude"},
         {"36 mm", "36.001 mm"},
         {"18 mm", "18.001 mm"},

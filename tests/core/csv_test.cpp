@@ -285,6 +285,17 @@ TEST(Csv, DecimalCommas) {
         EXPECT_EQ(with_decimal_point(same, ';'), same);
 }
 
+// 1.450 beside 1,2 may be 1450, as 1.450 in a German table is; 0.450 and a table without decimal commas
+// cannot.
+TEST(Csv, APointThatMayDivideThousandsIsRefusedBesideDecimalCommas) {
+    EXPECT_THAT(error_of("a;b\n1,2;1.450\n"),
+                testing::HasSubstr("t.csv:2: '1.450' can be read with and without"));
+    EXPECT_THAT(error_of("a;b\n1.450 mm;3\n2;1,2\n"), testing::HasSubstr("1.450 mm"));
+    for (char const* fine : {"a;b\n1.2;1.450\n", "a,b\n1,1.450\n", "a;b\n1,2;0.450\n", "a;b\n1,2;1.45\n",
+                             "# 1,2\na;b\n1.2;1.450\n"})
+        EXPECT_EQ(error_of(fine, {.comments = true}), "no error") << fine;
+}
+
 TEST(Csv, NumberTables) {
     auto const error = [](std::string_view text) -> std::string {
         try {

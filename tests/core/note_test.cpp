@@ -60,6 +60,17 @@ TEST(Note, NumbersAreNumbersAndNotBelowTheirLeast) {
     EXPECT_EQ(fault_of([&] { numbers(note, "mixed"); }), "'mixed' holds what is not a number");
 }
 
+TEST(Note, AnEditedNumberIsNoticed) {
+    std::string text = sealed({{"mean", {0.1, 1e-17, 3}}, {"name", "a"}});
+    EXPECT_EQ(parse_sealed(text).at("mean"), Json({0.1, 1e-17, 3}));
+    EXPECT_EQ(sealed(parse_sealed(text)), text);
+    text.replace(text.find("0.1"), 3, "99.");
+    text.insert(text.find("99.") + 3, "0");
+    EXPECT_THAT(fault_of([&] { parse_sealed(text); }),
+                testing::HasSubstr("it was changed since it was written"));
+    EXPECT_EQ(parse_sealed(R"({"mean": 2})").at("mean"), 2) << "an older program wrote no digest";
+}
+
 TEST(Note, AnotherKindOfValueIsNamed) {
     EXPECT_EQ(fault_of([] { text(parse("[]"), "a"); }), "it is not an object");
     EXPECT_EQ(fault_of([] { text_if_any(parse("3"), "a"); }), "");

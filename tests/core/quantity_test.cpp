@@ -101,6 +101,13 @@ TEST(Quantity, MassFlowsInTonnesPerHour) {
     }
 }
 
+// udunits2 reads mt as a thousandth of a tonne. A foot, a pint and a kilogram also end so, and stay.
+TEST(Quantity, APrefixOfTonnesIsASlip) {
+    for (char const* const text : {"12 mt/h", "12 dt/h", "12 mt", "12 millitonne/h"})
+        EXPECT_THROW(core::parse_quantity(text, "kg/s"), core::QuantityError) << text;
+    EXPECT_NEAR(core::parse_quantity("62.4 lb/ft3", "kg/m3"), 62.4 * 0.45359237 / std::pow(0.3048, 3), 1e-9);
+}
+
 TEST(Quantity, MistakesAreNamed) {
     auto const message = [](char const* text, char const* unit) {
         try {

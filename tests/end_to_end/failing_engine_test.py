@@ -44,11 +44,20 @@ class FailingEngine(EndToEndTest):
         # What LIGGGHTS does on a full disk: exit code 0 and nothing written.
         self.break_engine("exit 0")
         self.assert_all_fail("outputs-incomplete", "is the disk full?", attempts=3)
+        self.break_engine(f'VIBROTROUGH_TEST_BREAK= "{self.engine}" "$@"; test ! -f settled.restart || : > settled.restart; exit 0')
+        self.assert_all_fail("outputs-incomplete", "or an empty one", attempts=4)
         self.break_engine("kill -SEGV $$")
-        self.assert_all_fail("engine-crashed", "signal 11", attempts=4)
+        self.assert_all_fail("engine-crashed", "signal 11", attempts=5)
         # A run whose last cycles are missing although its end marker is there.
         self.break_engine(f'VIBROTROUGH_TEST_BREAK= "{self.engine}" "$@"; sed -i "\\$d" cycles.csv; exit 0')
-        self.assert_all_fail("outputs-incomplete", "cycles.csv holds", attempts=5)
+        self.assert_all_fail("outputs-incomplete", "cycles.csv holds", attempts=6)
+
+        # Numbers that are not finite, and displacements that contradict the velocities.
+        edit = f"""VIBROTROUGH_TEST_BREAK= "{self.engine}" "$@"; test ! -f cycles.csv || {{ awk -F, -v OFS=, 'PROGRAM {{print}}' cycles.csv > c; mv c cycles.csv; }}; exit 0"""
+        self.break_engine(edit.replace("PROGRAM", '/^[0-9]/ && NR == 8 {$3 = "nan"}'))
+        self.assert_all_fail("diverged", "NaN or infinite", attempts=7)
+        self.break_engine(edit.replace("PROGRAM", "/^[0-9]/ {$3 *= 2}"))
+        self.assert_all_fail("outputs-incomplete", "contradicts itself", attempts=8)
 
         self.break_engine("")
         self.run_campaign(self.campaign)

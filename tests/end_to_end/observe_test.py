@@ -3,6 +3,7 @@ nothing of a file runs that was not allowed.
 """
 
 import json
+import shutil
 import sys
 import unittest
 import zipfile
@@ -174,6 +175,8 @@ def energy(packing):
             ("", "return [1, 2]", "cycle 1 returned an array of shape (2,); return one number"),
             ("", "pass", "cycle 1 returned NoneType; return one number"),
             ("", "return np.nan", "returned NaN for all cycles"),
+            ("", "return np.ma.masked if cycle.number == 3 else 1.0", "cycle 3 returned nan, which is not a finite number"),
+            ("", "return 10**400", "cycle 1 returned a number that is too large"),
             ("", "return np.inf if cycle.number == 3 else 1.0", "cycle 3 returned inf, which is not a finite number"),
             ("", "return np.nan if cycle.number == 3 else 1.0", "cycle 3 returned nan, which is not a finite number"),
             (", over=('height', 'm')", "return 1.0", "cycle 1 returned float; return two arrays of one length"),
@@ -215,6 +218,26 @@ def energy(packing):
         examples = self.call("observe", "--examples")
         self.assertEqual(examples.returncode, 0)
         compile(examples.stdout, "examples", "exec")
+
+    def test_frames_that_are_gone_are_told(self):
+        changes = FRAMES | {"output.contacts": None, "output.frame_packings": None, "measure.packings": 1}
+        self.run_campaign(self.write_campaign(changes, {"layer.grains": [60, 70]}), wanted=None)
+        own = self.write(HEAD + '@vibrotrough.observable()\ndef mine(cycle):\n    """Mine."""\n    print("a word")\n    return float(len(cycle.frames))\n')
+        done = self.observe("--json", file=own)
+        self.assertEqual(len(json.loads(done.stdout)["observables"][0]["cases"]), 2, "what a function prints is not part of the answer")
+        self.assertIn("a word", done.stderr)
+        first, second = (path.parent for path in self.results())
+        dumps = sorted((first / "packing-1" / "dump").glob("frames.*.dump"), key=lambda path: int(path.name.split(".")[1]))
+        kept = dumps[5].read_bytes()
+        dumps[5].unlink()
+        done = self.observe(file=own)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("dump lacks 1 of its", done.stderr)
+        dumps[5].write_bytes(kept)
+        shutil.rmtree(second / "packing-1" / "dump")
+        done = self.observe(file=own)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"mine is not measured in {second.name}", done.stderr)
 
     def test_what_belongs_to_an_earlier_result_is_left_aside(self):
         changes = {"grains.youngs_modulus": "1 MPa", "measure.packings": 2, "measure.half_width": 0.25,  # more than the numerical errors of these grains

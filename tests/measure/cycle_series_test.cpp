@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
 
+#include <cmath>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -32,6 +33,26 @@ class CyclesFile : public testing::Test {
         "0,50,0.01,0.005,0,0,0,0,0\n# driven from here\n"
         "100,50,0.02,0.006,0.1,0.12,-0.5,-9,0.25\n200,50,0.04,0.006,0.1,0.22,0.5,-10,0.5\n";
 };
+
+// Displacements of 0.01 and 0.02 m in cycles of 0.1 s are 0.1 and 0.2 m/s, beside means of 0.12 and 0.22.
+TEST_F(CyclesFile, BothSpeedsAreCompared) {
+    CycleSeries series = read(whole);
+    std::vector<double> const durations(2, 0.1);
+    EXPECT_NEAR(difference_of_speeds(series, durations), 0.02, 1e-12);
+    series.x.back() *= 2;
+    EXPECT_NEAR(difference_of_speeds(series, durations), 0.38, 1e-12);
+}
+
+TEST_F(CyclesFile, WhatIsNotFiniteIsSeen) {
+    CycleSeries series = read(whole);
+    EXPECT_TRUE(is_finite(series));
+    for (auto* const list : {&series.x, &series.mean_velocity, &series.normal_force}) {
+        double const before = list->front();
+        list->front() = std::nan("");
+        EXPECT_FALSE(is_finite(series));
+        list->front() = before;
+    }
+}
 
 // A mixture has two columns more for each material; without them the file is one of another layer.
 TEST_F(CyclesFile, AMixtureHasTheCentresOfItsMaterials) {

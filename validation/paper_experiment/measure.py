@@ -147,6 +147,6 @@ def frictions(run: ValidationCase, name: str, text: str) -> Iterator[list[str]]:
     command = [run.program, "friction-test", str(file), "--output", str(folder), "--jobs", str(run.jobs)]
     if subprocess.run(command, check=False).returncode not in (0, 1):
         sys.exit(f"{' '.join(command)} failed")
-    for test in json.loads((folder / "friction.json").read_text(encoding="utf-8")):
+    for test in json.loads((folder / "friction.json").read_text(encoding="utf-8"))["layers"]:
         values = [test[key] for key in ("grain_friction", "friction", "friction_low", "friction_high", "machine_number")]
         yield [*("" if value is None else f"{value:.4f}" for value in values), test["mode"]]

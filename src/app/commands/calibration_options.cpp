@@ -42,11 +42,16 @@ void CalibrationOptions::add_to(CLI::App& command) {
     add_text(command, "--posterior", posterior,
              "Write the draws of the result into this JSON file, for 'vibrotrough design --posterior FILE'",
              "FILE");
+    outputs.add_to(command);
     add_python(command, python);
     command.add_flag("--json", json, "Print JSON");
 }
 
-std::vector<learn::MeasuredSpeed> CalibrationOptions::read_speeds(std::string const& file) const {
+std::vector<learn::MeasuredSpeed> CalibrationOptions::read_speeds(std::string const& file) {
+    outputs.inputs.emplace_back(file);
+    if (!plot.empty()) outputs.check("--plot", plot, "Calibration by Vibrotrough");
+    if (!page.empty()) outputs.check("--page", page, page_mark);
+    if (!posterior.empty()) outputs.check("--posterior", posterior, "\"model_discrepancy\"");
     auto speeds =
         learn::read_speeds(core::read_text_file(file).content, file, quantities.value("--uncertainty"));
     for (std::string const& sentence : learn::unusual_speeds(speeds))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/commands/option_table.hpp"
+#include "app/outputs.hpp"
 #include "learn/calibration.hpp"
 #include "learn/calibration_report.hpp"
 
@@ -24,14 +25,17 @@ struct CalibrationOptions {
     QuantityOptions quantities;       ///< uncertainty, common error, seed
     std::string plot, python;         ///< file of the corner plot, and the Python that draws it
     std::string page, posterior;      ///< file of the page, and of the draws for `design`
+    Outputs outputs;                  ///< whether these files may replace others
     bool exact = false;               ///< without model discrepancy
     bool json = false;                ///< print JSON
 
     /// Declares the options of a command.
     void add_to(CLI::App& command);
-    /// Reads a table of measured speeds, and says on standard error which of its numbers are unusual.
+    /// Reads a table of measured speeds, which no output may replace, and says on standard error which of its
+    /// numbers are unusual.
+    /// @throws core::InputError when a file that is there must not be replaced
     /// @throws core::InputError or core::MissingError as learn::read_speeds() and core::read_text_file() do
-    std::vector<learn::MeasuredSpeed> read_speeds(std::string const& file) const;
+    std::vector<learn::MeasuredSpeed> read_speeds(std::string const& file);
     /// The free parameters, with the priors that the user gave, else those of `known`.
     /// @throws core::InputError when a name is unknown or a range has no sense
     std::vector<learn::FreeParameter> parameters(std::vector<learn::FreeParameter> const& known) const;

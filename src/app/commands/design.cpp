@@ -2,6 +2,7 @@
 #include "app/commands/design_options.hpp"
 #include "app/design_verification.hpp"
 #include "app/learning.hpp"
+#include "app/outputs.hpp"
 #include "app/python.hpp"
 #include "learn/design_campaign.hpp"
 #include "learn/design_report.hpp"
@@ -18,6 +19,7 @@ struct DesignArguments {
     DesignOptions task;
     std::string campaign, page, python;
     bool json = false, verify = false;
+    Outputs outputs;
     Text budget;
     QuantityOptions counts;
     VerificationOptions verification;
@@ -93,22 +95,26 @@ VerifiedDesign find_design(DesignArguments const& options, learn::DesignTask tas
     return verify_design(task, how);
 }
 
-void write_campaign(std::string const& file, learn::DesignTask const& task, learn::RiskDesign const& design) {
+void write_campaign(DesignArguments const& options, learn::DesignTask const& task,
+                    learn::RiskDesign const& design) {
+    std::string const& file = options.campaign;
     if (auto const why = learn::why_no_campaign(task, design)) {
         tell("no campaign is written: {}\n", *why);
         return;
     }
-    core::write_file_atomically(file, learn::design_campaign(task, design, {}));
+    options.outputs.write_editable("--campaign", file, learn::design_campaign(task, design, {}));
     tell("campaign written: {0}; next: vibrotrough check {0}\n", core::shell_word(file));
 }
 
-int run_design(DesignArguments const& options) {
+int run_design(DesignArguments options) {
+    if (options.task.posterior) options.outputs.inputs.emplace_back(*options.task.posterior);
+    if (!options.page.empty()) options.outputs.check("--page", options.page, page_mark);
     VerifiedDesign found = find_design(options, read_task(options));
     if (found.is_interrupted) return interrupted;
     settle_load(found.task, found.design);
     learn::DesignTask const& task = found.task;
     learn::RiskDesign const& design = found.design;
-    if (!options.campaign.empty()) write_campaign(options.campaign, task, design);
+    if (!options.campaign.empty()) write_campaign(options, task, design);
     if (!options.page.empty()) {
         auto data = learn::design_page_data(task, design);
         if (options.verify) data["verification"] = learn::verification_sentence(task, found.verification);
@@ -218,6 +224,7 @@ void add_design(CLI::App& program, int& exit_code) {
              "Write the campaign that checks the design with grains into this file", "FILE");
     add_text(*command, "--page", options->page,
              "Write a page of one screen about the design into this HTML file", "FILE");
+    options->outputs.add_to(*command);
     add_python(*command, options->python);
     add_verification(*command, *options);
     command->add_flag("--json", options->json, "Print JSON");

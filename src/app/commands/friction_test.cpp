@@ -34,6 +34,23 @@ void print(evaluate::LayerFriction const& test) {
     fmt::print("\n");
 }
 
+/// Says of how many cases 'compare' shows the friction: of those whose layer is the one that was tested.
+void tell_shown(scenario::Campaign const& campaign, std::vector<evaluate::LayerFriction> const& tests,
+                fs::path const& folder) {
+    auto const is_tested = [&](scenario::Scenario const& one) {
+        std::string const layer = layer_key(one);
+        return std::ranges::any_of(tests,
+                                   [&](auto const& test) { return test.friction && test.layer == layer; });
+    };
+    auto const count = std::ranges::count_if(campaign.cases, is_tested);
+    auto const all = std::ssize(campaign.cases);
+    fmt::print("'vibrotrough compare {}' shows the theory at this friction for {} of {} cases{}\n",
+               core::shell_word(folder), count, all,
+               count == all ? ""
+                            : ": the other layers are not the tested ones, whose modulus was chosen for the "
+                              "shaking; give grains.youngs_modulus in the campaign file");
+}
+
 int run_friction_test(FrictionTestArguments const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
     check_extra_lines(options.campaign_file, campaign.cases, options.study.allow_extra);
@@ -63,8 +80,8 @@ int run_friction_test(FrictionTestArguments const& options) {
         return interrupted;
     }
     campaign::write_friction(folder, tests);
-    fmt::print("written to {}; 'vibrotrough compare {}' now also shows the theory at this friction\n",
-               campaign::friction_file(folder).string(), core::shell_word(folder));
+    fmt::print("written to {}\n", campaign::friction_file(folder).string());
+    tell_shown(campaign, tests, folder);
     bool const all = std::ranges::all_of(tests, [](auto const& test) { return test.friction.has_value(); });
     return all ? all_well : some_cases_failed;
 }
@@ -93,7 +110,8 @@ trough, because grains roll and layers shear.)");
     command->footer(
         R"(The test is a separate campaign in DIR/friction-test. Prints one line per layer: how far it slides relative to the trough (from peak to peak, in amplitudes
 r), its friction coefficient with an interval, and its mode. The numbers are also written to DIR/friction.json, and 'vibrotrough compare DIR' then
-shows the theory with this friction too. Cases with the same grains, layer and trough surface share one test.
+shows the theory with this friction too, for the cases with the layer that was tested: also its modulus must be the same,
+which is chosen for each drive unless grains.youngs_modulus gives it. Cases with the same grains, layer and trough surface share one test.
 
 Ctrl-C stops the run cleanly, and the same command continues it.
 

@@ -42,7 +42,7 @@ std::string name_in(campaign::Plan const& plan, std::string const& id) {
 void print_text(std::vector<Observed> const& observed, campaign::Plan const& plan,
                 std::string const& folder) {
     bool is_of_one_packing = false;
-    for (auto const& [observable, missing] : observed) {
+    for (auto const& [observable, missing, left_out] : observed) {
         if (!missing.empty()) continue;
         std::string const over =
             observable.is_number() ? "" : fmt::format(" over {} [{}]", observable.over, observable.over_unit);
@@ -75,15 +75,21 @@ int run_observe(ObserveArguments const& options) {
     Observing const found = observe(plan, source, options.only, options.python);
     if (found.exit_code != all_well) return found.exit_code;
     std::vector<store::Observable> measured;
-    for (auto const& [observable, missing] : found.observed) {
-        if (missing.empty())
-            measured.push_back(observable);
-        else if (found.observed.size() > 1)
-            tell("vibrotrough: {} is not measured: {}\n", observable.name, missing);
+    for (auto const& [observable, missing, left_out] : found.observed) {
+        if (!missing.empty()) {
+            if (found.observed.size() > 1)
+                tell("vibrotrough: {} is not measured: {}\n", observable.name, missing);
+            continue;
+        }
+        measured.push_back(observable);
+        if (!left_out.empty())
+            tell("vibrotrough: {} is not measured in {}, where no packing has what it needs\n",
+                 observable.name, fmt::join(left_out, ", "));
     }
     if (measured.empty()) {
-        auto const& [observable, missing] = found.observed.front();
-        throw core::InputError(fmt::format("{} cannot be measured: {}", observable.name, missing));
+        Observed const& first = found.observed.front();
+        throw core::InputError(
+            fmt::format("{} cannot be measured: {}", first.observable.name, first.missing));
     }
     campaign::write_observables(plan.folder, measured);
     campaign::write_campaign_file(plan);

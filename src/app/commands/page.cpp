@@ -1,5 +1,6 @@
 #include "app/campaign_run.hpp"
 #include "app/commands/command.hpp"
+#include "app/outputs.hpp"
 #include "app/script_folder.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -18,6 +19,7 @@ namespace {
 struct PageArguments {
     std::vector<std::string> results;
     std::string output = "vibrotrough.html";
+    Outputs outputs;
 };
 
 /// The columns of compare that the page draws or lists.
@@ -132,7 +134,9 @@ void put(std::string& page, std::string const& identity, Json const& json) {
     page.replace(at + place.find("null"), 4, for_script(json));
 }
 
-int run_page(PageArguments const& options) {
+int run_page(PageArguments options) {
+    options.outputs.inputs.assign(options.results.begin(), options.results.end());
+    options.outputs.check("--output", options.output, page_mark);
     std::string page = core::read_file(built_page());
     Shown const shown = read_results(options.results);
     if (!shown.campaign.is_null()) put(page, "campaign", shown.campaign);
@@ -156,6 +160,7 @@ void add_page(CLI::App& program, int& exit_code) {
     command->add_option("--output", options->output, "The file that is written")
         ->type_name("FILE.html")
         ->capture_default_str();
+    options->outputs.add_to(*command);
     command->footer(
         R"(The page is one file that needs neither a network nor a server: open it in a browser, send it to colleagues. It computes
 with the theory and the atlas of this program, compiled for browsers: the point mass and the rolling-layer law, with what both

@@ -41,16 +41,19 @@ struct PredictedLayer {
     }
 };
 
-/// W/m^2, the mean power of the trough on a layer.
-atlas::Bounded power_per_area(atlas::LayerLoad const& load, prepare::PreparedCase const& prepared,
-                              std::optional<atlas::Bounded> const& fed_depth) {
+/// W/m^2, the mean power of the trough on a layer; none where the atlas does not know it.
+std::optional<atlas::Bounded> power_per_area(atlas::LayerLoad const& load,
+                                             prepare::PreparedCase const& prepared,
+                                             std::optional<atlas::Bounded> const& fed_depth) {
     scenario::Scenario const& s = prepared.scenario;
-    auto const [value, half_width] = power_per_mass(load, s.trough.amplitude, s.trough.frequency);
+    auto const power = power_per_mass(load, s.trough.amplitude, s.trough.frequency);
+    if (!power) return {};
+    auto const [value, half_width] = *power;
     double const mass_per_area = fed_depth ? bulk_density(s.grains) * fed_depth->value
                                            : prepared.mass / (s.layer.length * s.layer.width);
     // The depth follows from the same speed as everything else, so that its error is not independent.
     double const by_depth = fed_depth ? value * bulk_density(s.grains) * fed_depth->half_width : 0;
-    return {mass_per_area * value, mass_per_area * half_width + by_depth};
+    return atlas::Bounded{mass_per_area * value, mass_per_area * half_width + by_depth};
 }
 
 PredictedLayer predict_layer(prepare::PreparedCase const& prepared, std::string const& label) {
@@ -94,6 +97,8 @@ std::string remarks(PredictedLayer const& layer) {
         text += fmt::format(
             "  may repeat only after several cycles, as {} of {} layers near this throw number do",
             *layer.later, atlas::layers_asked_for_period);
+    if (layer.load && !layer.power)
+        text += "  no power: the surface over the simulated layers is negative here";
     std::string const outside = layer.outside(&atlas::Outside::why, ", ");
     return outside.empty() ? text : text + "  outside: " + outside;
 }
@@ -109,7 +114,7 @@ std::vector<std::pair<char const*, std::optional<double>>> load_of(PredictedLaye
         return layer.load ? std::optional((*layer.load).*of) : std::nullopt;
     };
     add("added_mass_fraction", "added_mass_fraction_half_width", part(&atlas::LayerLoad::added_mass));
-    add("damping", "damping_half_width", part(&atlas::LayerLoad::damping));
+    add("damping", "damping_half_width", layer.power ? part(&atlas::LayerLoad::damping) : std::nullopt);
     add("power_per_area_w_per_m2", "power_per_area_half_width_w_per_m2", layer.power);
     add("fed_depth_m", "fed_depth_half_width_m", layer.answer.fed_depth);
     return all;

@@ -211,8 +211,10 @@ std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
 PackingEnd PackingRun::conclude(long last_step) {
     auto const files = evaluate::read_packing_files(folder_);
     auto evaluation = evaluate::evaluate_outputs(*planned_.prepared, packing_.number, files, last_step);
-    if (auto const* const fault = std::get_if<evaluate::UnusableOutputs>(&evaluation))
+    if (auto const* const fault = std::get_if<evaluate::UnusableOutputs>(&evaluation)) {
+        remove_checkpoints(folder_);  // or a later run would only read the same outputs again
         return {fault->outcome, fault->message};
+    }
     std::string const deck = deck::for_ranks(deck_.files, engine_.ranks).at(deck::drive_file);
     evaluate::PackingMarker const marker{wall_time(),
                                          started_,

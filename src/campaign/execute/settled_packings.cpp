@@ -31,12 +31,18 @@ constexpr double rest_tolerance = 0.02;
 
 constexpr char const* seal_file = "settled.json";
 
+/// Whether the engine wrote the settled packing. An empty file is what a full disk or a killed copy leaves.
+bool has_restart(fs::path const& folder) {
+    std::error_code missing;
+    fs::path const file = folder / deck::settled_file;
+    return fs::is_regular_file(file, missing) && fs::file_size(file, missing) > 0;
+}
+
 /// Whether the folder holds the packing of this deck, sealed, and still what it was. A packing that was
 /// copied here from elsewhere has a whole seal, but not the deck.
 bool is_whole(fs::path const& folder, deck::Deck const& deck) {
     try {
-        if (!fs::is_regular_file(folder / seal_file) || !fs::is_regular_file(folder / deck::settled_file))
-            return false;
+        if (!fs::is_regular_file(folder / seal_file) || !has_restart(folder)) return false;
         if (deck::read_files(folder, deck.settle_files) != deck.settle_files) return false;
         return parse_settled(core::read_file(folder / seal_file, core::largest_note)) ==
                core::sha256_hex(core::read_file(folder / deck::settled_file));
@@ -48,9 +54,9 @@ bool is_whole(fs::path const& folder, deck::Deck const& deck) {
 PackingEnd judge(fs::path const& folder, engine::ExitStatus status, double weight) {
     engine::RunReport const report = engine::examine_run(folder, status, engine::Stage::settling);
     if (report.failure) return {report.failure, report.message, report.signal};
-    if (!fs::is_regular_file(folder / deck::settled_file)) {
+    if (!has_restart(folder)) {
         return {core::Outcome::outputs_incomplete,
-                fmt::format("the engine left no {}; is the disk full?", deck::settled_file)};
+                fmt::format("the engine left no {}, or an empty one; is the disk full?", deck::settled_file)};
     }
     if (std::abs(report.settled_force - weight) > rest_tolerance * weight) {
         return {core::Outcome::wrong_weight,

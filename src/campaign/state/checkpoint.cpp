@@ -4,6 +4,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "measure/cycle_series.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -78,7 +79,7 @@ std::optional<Checkpoint> find_checkpoint(fs::path const& folder, std::string co
             parse_checkpoint(core::read_file(folder / checkpoint_seal, core::largest_note));
         bool const known = checkpoint_cycle(checkpoint.file) && deck == core::sha256_hex(drive) &&
                            restart == core::sha256_hex(core::read_file(folder / checkpoint.file));
-        if (known && has_row(core::read_file(folder / "cycles.csv"),
+        if (known && has_row(measure::cycles_text(folder / "cycles.csv").content,
                              static_cast<long>(checkpoint.cycle) * steps_per_cycle))
             return checkpoint;
     } catch (core::Error const&) {

@@ -50,7 +50,8 @@ void write_friction(std::filesystem::path const& campaign_folder,
                         {"mode", test.mode},
                         {"message", test.message}});
     }
-    core::write_file_atomically(friction_file(campaign_folder), list.dump(2) + "\n");
+    core::write_file_atomically(friction_file(campaign_folder),
+                                core::note::sealed({{"layers", std::move(list)}}));
 }
 
 std::map<std::string, evaluate::LayerFriction> read_friction(std::filesystem::path const& campaign_folder) {

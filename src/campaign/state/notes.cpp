@@ -88,8 +88,9 @@ std::string to_json(EngineNote const& note) {
 
 std::map<std::string, evaluate::LayerFriction> parse_friction(std::string_view text) {
     std::map<std::string, evaluate::LayerFriction> tests;
-    Json const json = note::parse(text);
-    for (Json const& one : note::elements(json)) {
+    Json const json = note::parse_sealed(text);
+    // An older program wrote the list alone.
+    for (Json const& one : json.is_array() ? note::elements(json) : note::list(json, "layers")) {
         evaluate::LayerFriction test = friction_of(one);
         if (test.friction && test.low && test.high) tests[test.layer] = test;
     }
@@ -97,7 +98,7 @@ std::map<std::string, evaluate::LayerFriction> parse_friction(std::string_view t
 }
 
 Json parse_numerics(std::string_view text) {
-    Json const json = note::parse(text);
+    Json const json = note::parse_sealed(text);
     if (note::text(json, "format") != numerics_format ||
         note::count(json, "schema_version", 0) != numerics_schema)
         throw note::Fault("it is of another format or version");

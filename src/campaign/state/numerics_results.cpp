@@ -206,7 +206,7 @@ void write_numerics(fs::path const& campaign_folder, std::vector<evaluate::Numer
     for (evaluate::NumericsBudget const& one : budgets) list.push_back(describe(one));
     Json const json{
         {"format", numerics_format}, {"schema_version", numerics_schema}, {"cases", std::move(list)}};
-    core::write_file_atomically(numerics_file(campaign_folder), json.dump(2) + "\n");
+    core::write_file_atomically(numerics_file(campaign_folder), core::note::sealed(json));
 }
 
 std::map<std::string, store::CaseNumerics> read_case_numerics(Plan const& plan) {

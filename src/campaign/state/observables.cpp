@@ -91,7 +91,7 @@ Json describe(store::Observable const& one) {
 }  // namespace
 
 std::vector<store::Observable> parse_observables(std::string_view text) {
-    Json const json = note::parse(text);
+    Json const json = note::parse_sealed(text);
     if (note::text(json, "format") != observables_format ||
         note::count(json, "schema_version", 0) != observables_schema)
         throw note::Fault("it is of another format or version");
@@ -110,7 +110,7 @@ std::string to_json(std::vector<store::Observable> const& observables) {
     Json const json{{"format", observables_format},
                     {"schema_version", observables_schema},
                     {"observables", std::move(list)}};
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return note::sealed(json);
 }
 
 std::vector<store::Observable> read_observables(std::filesystem::path const& campaign_folder) {

@@ -2,6 +2,7 @@
 
 #include "app/commands/command.hpp"
 #include "app/commands/theory/options.hpp"
+#include "app/outputs.hpp"
 #include "store/theory_table.hpp"
 
 namespace vibrotrough::app {
@@ -12,15 +13,24 @@ struct TheoryBatchArguments {
     RollingOption rolling;
     QuantityOptions counts;
     Text output;
+    Outputs outputs;
 };
 
-void run_theory_batch(TheoryBatchArguments const& options) {
+/// By which an earlier answer is recognised.
+char const* mark_of(std::filesystem::path const& extension) {
+    return extension == ".csv" ? "velocity_efficiency,half_width,mode,period_cycles,converged"
+                               : "vibrotrough theory table";
+}
+
+void run_theory_batch(TheoryBatchArguments options) {
     std::string const output = required("--output", options.output, "answers.csv");
     auto const extension = std::filesystem::path(output).extension();
     if (extension != ".csv" && extension != ".h5") {
         throw core::InputError(fmt::format(
             "--output {}: must end in .csv or .h5; write for example --output answers.csv", output));
     }
+    options.outputs.inputs.emplace_back(options.input);
+    options.outputs.check("--output", output, mark_of(extension));
     int const jobs = static_cast<int>(options.counts.value("--jobs").value_or(0));
     store::TheoryPoints const table = store::read_theory_points(options.input);
     auto const law = options.rolling.law();
@@ -50,6 +60,7 @@ void add_theory_batch(CLI::App& theory, int& exit_code) {
     auto const options = std::make_shared<TheoryBatchArguments>();
     command->add_option("input", options->input, "CSV file to read")->required();
     command->add_option("--output", options->output, "File to write, .csv or .h5");
+    options->outputs.add_to(*command);
     options->rolling.add_to(*command);
     options->counts.add_to(*command, {{"--jobs"}, {"--starts"}});
     command->footer(

@@ -49,7 +49,7 @@ bool is_plastic_mass(std::vector<learn::FreeParameter> const& free,
     });
 }
 
-int run_theory_calibrate(TheoryCalibrateArguments const& options) {
+int run_theory_calibrate(TheoryCalibrateArguments& options) {
     auto const speeds = options.shared.read_speeds(options.file);
     auto const fixed = read_fixed(options.fixed);
     bool const is_atlas = options.model == "atlas";

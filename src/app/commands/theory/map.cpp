@@ -2,6 +2,7 @@
 
 #include "app/commands/command.hpp"
 #include "app/commands/theory/options.hpp"
+#include "app/outputs.hpp"
 #include "store/theory_map.hpp"
 #include "view/theory_map_vtk.hpp"
 #include "view/vtk.hpp"
@@ -14,6 +15,7 @@ struct TheoryMapArguments {
     RollingOption rolling;
     QuantityOptions counts;
     Text x, y, output;
+    Outputs outputs;
 };
 
 char const* const axis_example = "throw_number=0.3:3.3:500";
@@ -88,6 +90,10 @@ void run_theory_map(TheoryMapArguments const& options) {
     int const starts = count_starts(options.counts, law.has_value());
     auto const stem = output.parent_path() / output.stem();
     std::filesystem::path const image = stem.string() + ".vti", lines = stem.string() + "_modes.vtp";
+    options.outputs.check("--output", output, "vibrotrough theory map");
+    if (view::has_vtk())
+        for (auto const& file : {image, lines})
+            options.outputs.check("--output", file, view::theory_map_mark);
     theory::Map map;
     // Compressing the image takes as long as finding the lines.
     auto const write_image = [&](theory::Map const& points) {
@@ -127,6 +133,7 @@ void add_theory_map(CLI::App& theory, int& exit_code) {
     command->add_option("--y", options->y, "Second axis, written in the same way");
     command->add_option("--output", options->output,
                         "HDF5 file to write; the .vti and .vtp files for ParaView get the same name");
+    options->outputs.add_to(*command);
     options->motion.add_to(*command);
     options->rolling.add_to(*command);
     options->counts.add_to(*command, {{"--jobs"}, {"--starts"}});

@@ -1,5 +1,6 @@
 #include "app/commands/command.hpp"
 #include "app/commands/theory/options.hpp"
+#include "app/outputs.hpp"
 #include "theory/quantities.hpp"
 #include "theory/tested_range.hpp"
 
@@ -11,6 +12,7 @@ struct TheoryTraceArguments {
     RollingOption rolling;
     QuantityOptions count;
     Text output;
+    Outputs outputs;
 };
 
 /// The trace as CSV with the columns time, phase and then all other numbers.
@@ -81,7 +83,11 @@ void run_theory_trace(TheoryTraceArguments const& options) {
     options.motion.tell_unusual();
     theory::Conveyor const input = options.motion.conveyor();
     auto const machine = options.motion.machine();
-    if (auto const law = options.rolling.law()) {
+    auto const law = options.rolling.law();
+    if (options.output)
+        options.outputs.check("--output", *options.output,
+                              law ? "phase,layer_velocity" : "phase,trough_velocity_x");
+    if (law) {
         write(options, samples, trace_rolling(options, input, *law, samples, machine));
         return;
     }
@@ -105,6 +111,7 @@ void add_theory_trace(CLI::App& theory, int& exit_code) {
     options->rolling.add_to(*command);
     options->count.add_to(*command, {{"--samples"}});
     command->add_option("--output", options->output, "CSV file to write; default: standard output");
+    options->outputs.add_to(*command);
     command->footer(
         std::string(
             R"(These are the curves of Fig. 6 of Sloot & Kruyt (1996). With the amplitude or stroke of the machine, or
