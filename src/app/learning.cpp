@@ -48,7 +48,7 @@ bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::str
         wanted.emplace(planned.id, planned.scenario().measure.half_width);
     learn::write_wanted_half_widths(ready.plan.folder, wanted);
     campaign::Summary const summary =
-        drive_campaign(options, ready, campaign::UntilPrecise(wanted), campaign::Until::done, *ready.kind);
+        drive_campaign(options, ready, *campaign::make_policy(wanted), campaign::Until::done, *ready.kind);
     if (summary.interrupted) tell("interrupted; the same command continues it\n");
     return !summary.interrupted;
 }

@@ -43,7 +43,7 @@ std::vector<SurfaceInput> const& inputs() {
     static std::vector<SurfaceInput> const all{
         {"throw_number", 0.7, 3.2},   {"tan_vibration_angle", 0.3, 1}, {"tan_inclination", -0.1, 0.1},
         {"friction", 0.15, 0.6},      {"amplitude", 0.5, 4},           {"depth", 3, 20, true},
-        {"grain_friction", 0.3, 0.8}, {"rolling_friction", 0, 0.2},    {"restitution", 0.3, 0.8},
+        {"grain_friction", 0.3, 0.8}, {"rolling_friction", 0, 0.2},    {"restitution", 0.3971, 0.8081},
     };
     return all;
 }

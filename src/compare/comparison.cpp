@@ -1,7 +1,7 @@
 #include "compare/comparison.hpp"
 
 #include "atlas/atlas.hpp"
-#include "prepare/softness.hpp"
+#include "prepare/numerical_errors.hpp"
 #include "theory/point_mass.hpp"
 #include "theory/rolling_layer.hpp"
 #include "theory/tested_range.hpp"

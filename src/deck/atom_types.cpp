@@ -1,5 +1,7 @@
 #include "deck/atom_types.hpp"
 
+#include "prepare/contact.hpp"
+
 #include <utility>
 
 #include <fmt/format.h>
@@ -56,7 +58,7 @@ PairTables pair_tables(prepare::PreparedCase const& prepared) {
                 are_grains ? contact_of(prepared.scenario, *one.material, *other.material)
                            : contact_with_wall(prepared.scenario, one, other);
             frictions.push_back(fmt::format("{}", contact.friction));
-            restitutions.push_back(fmt::format("{}", contact.restitution));
+            restitutions.push_back(fmt::format("{:.6g}", prepare::nominal_restitution(contact.restitution)));
         }
     }
     return {fmt::format("{}", fmt::join(frictions, " ")), fmt::format("{}", fmt::join(restitutions, " "))};
@@ -115,9 +117,9 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     std::string const model = block ? "hooke/stiffness tangential no_history"
                                     : fmt::format("{} tangential history", name_of(s.engine.contact));
     std::string const attraction = s.engine.cohesion > 0 ? " cohesion sjkr" : "";
-    std::string const options =
-        fmt::format("limitForce {} tangential_damping {}",
-                    s.layer.block == scenario::Block::plate ? "off" : "on", block ? "on" : "off");
+    std::string const options = fmt::format("limitForce {} tangential_damping {}",
+                                            s.layer.block == scenario::Block::plate ? "off" : "on",
+                                            block || s.engine.tangential_damping ? "on" : "off");
     std::string const wall_model = model + attraction + (rolls ? " rolling_friction epsd2" : "");
     data.set("block", block);
     data.set("rolls", rolls);

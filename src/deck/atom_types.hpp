@@ -42,7 +42,7 @@ int atom_type_of_part(prepare::PreparedCase const& prepared, std::size_t part);
 /// also for pairs that never touch.
 struct PairTables {
     std::string frictions;     ///< coefficients of friction
-    std::string restitutions;  ///< coefficients of restitution
+    std::string restitutions;  ///< nominal coefficients of restitution
 };
 
 /// The tables of a case.

@@ -63,7 +63,7 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
         double const modulus = prepared.scenario.grains.youngs_modulus.value();
         total.least_modulus = total.cases == 1 ? modulus : std::min(total.least_modulus, modulus);
         total.most_modulus = std::max(total.most_modulus, modulus);
-        if (prepared.modulus_chosen) ++total.moduli_chosen;
+        if (prepared.scenario.grains.is_modulus_chosen) ++total.moduli_chosen;
         double const packings = expected_packings(prepared.scenario);
         total.work += expected_work(prepared, packings);
         total.largest_step_cost = std::max(total.largest_step_cost, prepared.step_cost());

@@ -3,7 +3,7 @@
 #include "deck/estimates.hpp"
 #include "deck/open_trough.hpp"
 #include "prepare/contact.hpp"
-#include "prepare/softness.hpp"
+#include "scenario/model/softness.hpp"
 #include "theory/unusual.hpp"
 
 #include <algorithm>
@@ -148,30 +148,38 @@ void check_box(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
 /// prepare::is_soft().
 void check_softness(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     double const wanted = c.scenario.measure.half_width;
+    double const s = scenario::wave_number(c.scenario, *c.scenario.grains.youngs_modulus);
+    double const limit = s * std::sqrt(wanted / 2 / c.numerics.softness);
     std::string const advice = fmt::format(
         "leave out grains.youngs_modulus, so that it is chosen, or write at least {:.3g} MPa: a landing "
         "takes {:.2g} degrees of the cycle to cross the layer (validation/deep_layers)",
-        prepare::stiff_enough(c.scenario, wanted / 2) / 1e6,
-        prepare::wave_number(c.scenario, *c.scenario.grains.youngs_modulus) * 180 / std::numbers::pi);
-    findings.push_back(most("bound of the error of eta by soft grains", "grains.youngs_modulus",
-                            c.numerics.softness, wanted / 2 * (1 + 1e-9), 2 * wanted, advice));
+        scenario::stiff_enough(c.scenario, limit) / 1e6, s * 180 / std::numbers::pi);
+    findings.push_back(most("error of eta by soft grains", "grains.youngs_modulus", c.numerics.softness,
+                            wanted / 2 * (1 + 1e-9), 2 * wanted, advice));
 }
 
 /// All numerical errors together must leave something of the interval to statistics. The cure is named for
-/// the larger part.
+/// the largest part.
 void check_numerics(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     prepare::NumericalErrors const& numerics = c.numerics;
     double const wanted = c.scenario.measure.half_width;
     bool const is_box = numerics.box >= numerics.softness;
     std::string const advice = fmt::format(
-        "the case will probably end as not-precise: {}, or allow a half-width of {:.2g} "
-        "(validation/whole_interval); "
-        "'vibrotrough convergence' measures these errors",
-        is_box ? "lengthen and widen the box" : "stiffen the grains",
-        numerics.total() / prepare::largest_numerical_share);
-    findings.push_back(most("bound of all numerical errors of eta",
-                            is_box ? "layer.length" : "grains.youngs_modulus", numerics.total(),
-                            prepare::largest_numerical_share * wanted * (1 + 1e-9), never, advice));
+        "the case will probably end as not-precise: {}; or allow a half-width of {:.2g} "
+        "(validation/numerics)",
+        prepare::how_to_lower(numerics), numerics.total() / prepare::largest_numerical_share);
+    findings.push_back(most("all numerical errors of eta", is_box ? "layer.length" : "grains.youngs_modulus",
+                            numerics.total(), prepare::largest_numerical_share * wanted * (1 + 1e-9), never,
+                            advice));
+}
+
+/// The engine's coefficient of restitution is at least 0.05, with which grains come back with 0.214.
+void check_restitution(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    double const lowest = std::min(c.scenario.grains.restitution, c.scenario.trough.restitution);
+    if (lowest >= prepare::least_restitution) return;
+    findings.push_back(
+        least("restitution", "grains.restitution", lowest, prepare::least_restitution, 0,
+              "the contact of the engine cannot be less elastic than 0.214, which is simulated"));
 }
 
 /// In some codes small grains get caught between much larger ones (engine/README.md).
@@ -323,6 +331,7 @@ std::vector<Finding> check_drive(prepare::PreparedCase const& prepared) {
     check_each_material(findings, prepared, check_contact_time);
     if (!is_block(prepared.scenario)) {
         check_box(findings, prepared);
+        check_restitution(findings, prepared);
         check_softness(findings, prepared);
         check_numerics(findings, prepared);
         check_sizes(findings, prepared);

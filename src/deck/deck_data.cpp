@@ -328,7 +328,7 @@ core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& p
     data.set("start_efficiency", text(start));
     data.set("start_speed", rounded(start * n.velocity_scale));
     describe_inputs(data, s);
-    data.set("modulus_chosen", n.modulus_chosen);
+    data.set("modulus_chosen", n.scenario.grains.is_modulus_chosen);
     describe_contact(data, n);
     describe_packing(data, n);
     describe_drive(data, n);

@@ -101,9 +101,9 @@ std::string what_numerics_would_take(scenario::Scenario const& s) {
     prepare::NumericalErrors const numerics = prepare::numerical_errors(s);
     return fmt::format(
         "the numerical errors alone may be {:.3f} (soft grains {:.3f}, box {:.3f}, time step {:.3f}), which "
-        "is "
-        "too much for a half-width of {:g}: more packings do not help, but stiffer grains or a larger box do",
-        numerics.total(), numerics.softness, numerics.box, numerics.time_step, s.measure.half_width);
+        "is too much for a half-width of {:g}, and more packings do not help: {}",
+        numerics.total(), numerics.softness, numerics.box, numerics.time_step, s.measure.half_width,
+        prepare::how_to_lower(numerics));
 }
 
 std::string what_statistics_would_take(store::CaseRecord const& record) {

@@ -1,9 +1,13 @@
 #include "prepare/contact.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+
+#include <boost/math/tools/toms748_solve.hpp>
 
 namespace vibrotrough::prepare {
 namespace {
@@ -49,16 +53,34 @@ double hooke_stiffness(scenario::Grains const& grains, ContactPair const& pair, 
     return elastic * std::pow(pair.mass * speed * speed / elastic, 0.2);
 }
 
-double damping_ratio(double restitution) {
-    double const loss = std::log(restitution);
-    return -loss / std::hypot(std::numbers::pi, loss);
+double restitution_of(double damping_ratio) {
+    return std::exp(-damping_ratio * linear_duration(1, 1, damping_ratio));
 }
 
-LinearImpact linear_impact(double stiffness, double mass, double damping_ratio) {
-    double const natural = std::sqrt(stiffness / mass);
+double damping_ratio(double restitution) {
+    if (restitution >= 1) return 0;
+    double const wanted = std::max(restitution, least_restitution + 3e-4);  // the engine takes no less
+    auto const too_elastic = [&](double z) { return restitution_of(z) - wanted; };
+    boost::math::tools::eps_tolerance<double> const tolerance(50);
+    std::uintmax_t iterations = 100;
+    auto const [low, high] =
+        boost::math::tools::toms748_solve(too_elastic, 0.0, 0.999999, tolerance, iterations);
+    return (low + high) / 2;
+}
+
+double nominal_restitution(double restitution) {
+    double const z = damping_ratio(restitution);
+    return std::exp(-std::numbers::pi * z / std::sqrt(1 - z * z));
+}
+
+double real_restitution(double nominal) {
+    double const loss = std::log(nominal);
+    return restitution_of(-loss / std::hypot(std::numbers::pi, loss));
+}
+
+double linear_duration(double stiffness, double mass, double damping_ratio) {
     double const root = std::sqrt(1 - damping_ratio * damping_ratio);
-    double const duration = 2 * std::acos(damping_ratio) / (natural * root);
-    return {duration, std::exp(-damping_ratio * natural * duration)};
+    return 2 * std::acos(damping_ratio) / (std::sqrt(stiffness / mass) * root);
 }
 
 double attraction_per_overlap(double cohesion, ContactPair const& pair) {
@@ -120,7 +142,7 @@ class HookeContact : public Contact {
     std::string_view name() const override { return "Hooke"; }
 
     double duration(ContactPair const& pair, double, double restitution) const override {
-        return linear_impact(spring(pair), pair.mass, damping_ratio(restitution)).duration;
+        return linear_duration(spring(pair), pair.mass, damping_ratio(restitution));
     }
     double overlap_under(ContactPair const& pair, double force) const override {
         double const net = net_spring(pair);

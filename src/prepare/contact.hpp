@@ -33,21 +33,34 @@ double effective_modulus(scenario::Grains const& grains);
 /// overlap with either.
 double hooke_stiffness(scenario::Grains const& grains, ContactPair const& pair, double speed);
 
-/// Damping over critical damping that belongs to a nominal restitution: z = |ln e| / sqrt(pi^2 + ln^2 e), so
-/// that the whole half oscillation would give e.
+/// Coefficient of restitution of an impact whose force never attracts, at the damping ratio z (damping over
+/// critical damping, 0 to 1): e = exp(-2 z acos(z) / sqrt(1 - z^2)).
+///
+/// On a linear spring F = max(0, k d + c d'), c = 2 z sqrt(k m*), the overlap d = v / w exp(-z w0 t) sin(w t)
+/// with w0 = sqrt(k / m*), w = w0 sqrt(1 - z^2) has no force any more when d'' = 0: w t = 2 acos(z)
+/// (Schwager & Poeschel, Granular Matter 9, 2007, 465). The damped Hertz contact of LIGGGHTS, m* d'' = -K
+/// d^(3/2) - sqrt(5 K m*) z d^(1/4) d', has the same e: with y = 2/sqrt(5) d^(5/4) it is the linear
+/// oscillator v dv/dy = -y - 2 z v (in units of K and m*), and its force ends where y + 2 z v = 0, as there
+/// (Antypov & Elliott, EPL 94, 2011, 50004). Neither depends on the speed.
+double restitution_of(double damping_ratio);
+
+/// The damping ratio with which an impact has this restitution, of least_restitution to 1.
 double damping_ratio(double restitution);
 
-/// An impact on a damped linear spring without attraction.
-struct LinearImpact {
-    double duration;     ///< s, until the force ends
-    double restitution;  ///< speed at that moment over speed before
-};
+/// The engine's coefficientRestitution for grains that really come back with this one:
+/// exp(-pi z / sqrt(1 - z^2)), which is what a force that may attract would give. 0.3 needs 0.17, 0.5 needs
+/// 0.44, 0.8 needs 0.79.
+double nominal_restitution(double restitution);
 
-/// The impact with the force F = max(0, k d + c d'), c = 2 z sqrt(k m*). The overlap d = v / w exp(-z w0 t)
-/// sin(w t) with w0 = sqrt(k / m*), w = w0 sqrt(1 - z^2) has no force any more when d'' = 0:
-/// w t = pi - 2 asin(z) = 2 acos(z) and e = exp(-z w0 t) (Schwager & Poeschel, Granular Matter 9, 2007,
-/// 465). Neither depends on the speed.
-LinearImpact linear_impact(double stiffness, double mass, double damping_ratio);
+/// What a nominal coefficient of the engine really gives: the inverse of nominal_restitution().
+double real_restitution(double nominal);
+
+/// The least that the engine can be asked for: it takes coefficients from 0.05 on. Critical damping gives
+/// exp(-2) = 0.135.
+inline constexpr double least_restitution = 0.2137;
+
+/// Duration of an impact on a linear spring (N/m) that never attracts, s: 2 acos(z) / (w0 sqrt(1 - z^2)).
+double linear_duration(double stiffness, double mass, double damping_ratio);
 
 /// Attraction of the model sjkr per overlap, N/m: 2 pi R* times the energy density. The area of contact is
 /// that of the circle in which the spheres cut each other, 2 pi R* d for small overlaps d (LIGGGHTS, cohesion

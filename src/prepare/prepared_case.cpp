@@ -2,7 +2,7 @@
 
 #include "prepare/open_trough.hpp"
 #include "prepare/screen.hpp"
-#include "prepare/softness.hpp"
+#include "scenario/model/softness.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -100,15 +100,6 @@ scenario::Scenario with_drive_of(scenario::Scenario scenario, scenario::Stage co
     return scenario;
 }
 
-/// The lowest modulus that is stiff enough in all stages.
-double modulus_for(PreparedCase const& c, double error) {
-    if (c.stages.empty()) return stiff_enough(c.scenario, error);
-    double modulus = 0;
-    for (scenario::Stage const& stage : c.stages)
-        modulus = std::max(modulus, stiff_enough(with_drive_of(c.scenario, stage), error));
-    return modulus;
-}
-
 void prepare_grains(PreparedCase& c) {
     scenario::Scenario const& s = c.scenario;
     c.materials = materials(s);
@@ -132,15 +123,11 @@ void prepare_grains(PreparedCase& c) {
     c.layer_height = layer_height(s);
 }
 
-/// Grains without a modulus get the lowest one that leaves most of the half-width asked for to statistics.
-/// The contact of a block has a stiffness of its own.
+/// A case that is no part of a campaign may still have none.
 void prepare_modulus(PreparedCase& c) {
-    constexpr double modulus_of_blocks = 5e6, share = 0.5;
-    bool const block = c.scenario.layer.block != scenario::Block::none;
-    std::optional<double>& modulus = c.scenario.grains.youngs_modulus;
-    c.modulus_chosen = !modulus;
-    if (!modulus) modulus = block ? modulus_of_blocks : modulus_for(c, share * c.scenario.measure.half_width);
-    for (scenario::Material& material : c.materials) material.grains.youngs_modulus = modulus;
+    scenario::choose_modulus({&c.scenario, 1});
+    for (scenario::Material& material : c.materials)
+        material.grains.youngs_modulus = c.scenario.grains.youngs_modulus;
     c.numerics = numerical_errors(c.scenario);
 }
 

@@ -51,7 +51,6 @@ struct PreparedCase {
     double settled_weight;  ///< see settled_grains
 
     // Stiffness. Where the campaign file gives no modulus, the scenario above holds the one that was chosen.
-    bool modulus_chosen;       ///< whether Young's modulus was chosen here
     NumericalErrors numerics;  ///< bounds of the errors of the efficiency by softness, box and time step
 
     // Time.

@@ -1,5 +1,4 @@
 #include "prepare/numerical_errors.hpp"
-#include "prepare/softness.hpp"
 #include "store/layer_quantities.hpp"
 #include "store/material_quantities.hpp"
 #include "store/open_quantities.hpp"
@@ -80,7 +79,7 @@ std::vector<Quantity> drive_quantities() {
          Real([](Case c) { return c.scenario.trough.frequency; })},
         {"friction", "1", "Friction coefficient mu, grain on trough",
          Real([](Case c) { return c.scenario.trough.friction; })},
-        {"restitution", "1", "Restitution coefficient e, grain on trough, nominal value of the contact model",
+        {"restitution", "1", "Restitution coefficient e, grain on trough",
          Real([](Case c) { return c.scenario.trough.restitution; })},
         {"velocity_scale", "m/s", "omega r cos(beta), the speed at velocity efficiency 1",
          Real([](Case c) { return velocity_scale(c.scenario.trough); })},
@@ -281,7 +280,7 @@ std::vector<Quantity> grain_and_layer_quantities() {
          Real([](Case c) { return c.scenario.grains.poisson_ratio; })},
         {"grain_friction", "1", "Friction coefficient, grain on grain",
          Real([](Case c) { return c.scenario.grains.friction; })},
-        {"grain_restitution", "1", "Restitution coefficient, grain on grain, nominal",
+        {"grain_restitution", "1", "Restitution coefficient, grain on grain",
          Real([](Case c) { return c.scenario.grains.restitution; })},
         {"grain_rolling_friction", "1", "Rolling friction coefficient, 0 when the model is off",
          Real([](Case c) { return c.scenario.grains.rolling_friction; })},

@@ -183,9 +183,10 @@ TEST(Check, TheExampleIsFine) {
     }
 }
 
-// Bound 4 s^2, an error from twice the half-width on (src/prepare/softness.hpp): 14 diameters of 5 MPa.
+// Bound 4 s^2, an error from twice the half-width on (src/prepare/numerical_errors.hpp): 14 diameters of 5
+// MPa.
 TEST(Check, SoftGrainsOfADeepLayerAreAnError) {
-    char const* const item = "bound of the error of eta by soft grains";
+    char const* const item = "error of eta by soft grains";
     Finding const deep = finding(scenario_of(with("height = \"12 mm\"", "height = \"42 mm\"")), item);
     EXPECT_EQ(deep.severity, Severity::error);
     EXPECT_EQ(deep.key, "grains.youngs_modulus");

@@ -105,17 +105,31 @@ static int fail(void) {
     return -1;
 }
 
-ssize_t write(int descriptor, void const* bytes, size_t length) {
+/* @param at  place in the file, or -1: where it stands */
+static ssize_t written(int descriptor, void const* bytes, size_t length, off_t at) {
+    return at < 0 ? kernel(SYS_write, descriptor, bytes, length) : kernel(SYS_pwrite64, descriptor, bytes, length, at);
+}
+
+static ssize_t write_at(int descriptor, void const* bytes, size_t length, off_t at) {
     char place[PATH_MAX];
     if (descriptor > 2 && is_due("write", path_of(descriptor, place))) {
         if (is_torn) {
-            kernel(SYS_write, descriptor, bytes, length / 2);
+            written(descriptor, bytes, length / 2, at);
             kernel(SYS_kill, watched, SIGKILL);
         }
         if (!is_short) return fail();
-        return kernel(SYS_write, descriptor, bytes, length > 1 ? 1 : length);
+        return written(descriptor, bytes, length > 1 ? 1 : length, at);
     }
-    return kernel(SYS_write, descriptor, bytes, length);
+    return written(descriptor, bytes, length, at);
+}
+
+ssize_t write(int descriptor, void const* bytes, size_t length) {
+    return write_at(descriptor, bytes, length, -1);
+}
+
+/* As HDF5 writes. */
+ssize_t pwrite(int descriptor, void const* bytes, size_t length, off_t at) {
+    return write_at(descriptor, bytes, length, at);
 }
 
 int fsync(int descriptor) {

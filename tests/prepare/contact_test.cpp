@@ -43,8 +43,12 @@ TEST(Contact, TheSpringOfHookeHoldsTheEnergyOfHertz) {
     }
 }
 
+struct Impact {
+    double duration, restitution;
+};
+
 /// The impact of mass 1 with speed 1 on the spring k = 1, by small steps of the middle-point rule.
-LinearImpact integrate(double damping_ratio) {
+Impact integrate(double damping_ratio) {
     double const step = 1e-5;
     double overlap = 0, speed = 1, time = 0;
     auto const force = [&](double d, double v) { return d + 2 * damping_ratio * v; };
@@ -60,14 +64,29 @@ LinearImpact integrate(double damping_ratio) {
 
 // d'' = -(d + 2 z d') until the force would attract. The time is known to one step of 1e-5.
 TEST(Contact, ALinearImpactEndsWhenItsForceDoes) {
-    for (double const restitution : {0.06, 0.3, 0.5, 0.9}) {
+    for (double const restitution : {0.22, 0.3, 0.5, 0.9}) {
         double const ratio = damping_ratio(restitution);
-        LinearImpact const formula = linear_impact(1, 1, ratio), steps = integrate(ratio);
-        EXPECT_NEAR(formula.duration, steps.duration, 2e-5) << restitution;
-        EXPECT_NEAR(formula.restitution, steps.restitution, 2e-5) << restitution;
+        Impact const steps = integrate(ratio);
+        EXPECT_NEAR(linear_duration(1, 1, ratio), steps.duration, 2e-5) << restitution;
+        EXPECT_NEAR(restitution, steps.restitution, 2e-5);
     }
     // Without damping it is half a period, pi sqrt(m / k).
-    EXPECT_NEAR(linear_impact(4, 1, damping_ratio(1)).duration, pi / 2, 1e-12);
+    EXPECT_NEAR(linear_duration(4, 1, damping_ratio(1)), pi / 2, 1e-12);
+}
+
+// Measured with the engine (an issue of this project): a sphere at 1 m/s comes back with 0.325 for a nominal
+// 0.2 and with 0.808 for 0.8, to three digits.
+TEST(Contact, NominalAndRealRestitution) {
+    EXPECT_NEAR(real_restitution(0.2), 0.325, 5e-4);
+    EXPECT_NEAR(real_restitution(0.8), 0.808, 5e-4);
+    EXPECT_NEAR(real_restitution(0.05), least_restitution, 5e-5);
+    // The Runge-Kutta integration of the damped Hertz contact that tests/engine/contact_law_test.cpp quotes.
+    EXPECT_NEAR(real_restitution(0.1), 0.25273, 2e-5);
+    EXPECT_NEAR(real_restitution(0.5), 0.55029, 2e-5);
+    EXPECT_NEAR(real_restitution(0.9), 0.90203, 2e-5);
+    EXPECT_EQ(nominal_restitution(1), 1);
+    for (double const e : {0.22, 0.3, 0.5, 0.8, 0.95, 0.999})
+        EXPECT_NEAR(real_restitution(nominal_restitution(e)), e, 1e-12);
 }
 
 /// Net force of Hertz and sjkr on a pair, N, with the energy density w.
@@ -124,14 +143,14 @@ TEST(Contact, AttractionDeepensAnImpact) {
 }
 
 // k goes with E^(4/5) v^(2/5): the contact of two equal grains lasts pi (15/16)^(2/5) = 3.06 instead of 2.87
-// (m*^2 / (R* E*^2 v))^(1/5) without damping, and 2 acos(z) / pi / sqrt(1 - z^2) = 0.884 of that at a
-// restitution of 0.5 (z = 0.2154).
+// (m*^2 / (R* E*^2 v))^(1/5) without damping, and 2 acos(z) / pi / sqrt(1 - z^2) = 0.864 of that at a
+// restitution of 0.5 (z = 0.2553).
 TEST(Contact, TheTimeStepOfHookeFollowsItsContactTime) {
     PreparedCase const hertz = prepare_case(with_engine()),
                        hooke = prepare_case(with_engine("contact = \"hooke\"\n"));
     double const hertz_time = hertz.time.time_step / hertz.time.contact_fraction,
                  hooke_time = hooke.time.time_step / hooke.time.contact_fraction;
-    double const damped = 2 * std::acos(0.215449) / pi / std::sqrt(1 - 0.215449 * 0.215449);
+    double const damped = 2 * std::acos(0.255276) / pi / std::sqrt(1 - 0.255276 * 0.255276);
     EXPECT_NEAR(hooke_time / hertz_time, pi * std::pow(15.0 / 16, 0.4) / 2.87 * damped, 1e-4);
     EXPECT_LE(hooke.time.contact_fraction, 0.1);
     EXPECT_EQ(hooke.settle_speed, std::sqrt(2 * 9.81 * hooke.fill_top));

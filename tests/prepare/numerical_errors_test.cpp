@@ -2,8 +2,8 @@
 
 #include "core/atomic_file.hpp"
 #include "prepare/prepared_case.hpp"
-#include "prepare/softness.hpp"
 #include "scenario/example_campaign.hpp"
+#include "scenario/model/softness.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
 #include <cmath>
@@ -11,6 +11,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -53,16 +54,47 @@ std::map<std::string, std::map<std::string, Mean>> stored_means() {
     return means;
 }
 
-// 0.03 sqrt(40 d^2 / (L W)): 0.03 for 8 x 5 diameters, half of it for four times the area; 20/12 of it for 20
-// diameters. Between side walls the width does not count.
-TEST(NumericalErrors, TheBoxCountsWithTheRootOfItsArea) {
-    EXPECT_NEAR(box_bound(layer(8, 5, 4)), 0.03, 1e-12);
-    EXPECT_NEAR(box_bound(layer(16, 10, 4)), 0.015, 1e-12);
-    EXPECT_NEAR(box_bound(layer(8, 5, 12)), 0.03, 1e-12);
-    EXPECT_NEAR(box_bound(layer(8, 5, 20)), 0.05, 1e-12);
+// 0.019 * 40 d^2 / (L W) up to 8 diameters; deeper 0.03 sqrt(40 d^2 / (L W)), from 12 diameters on with the
+// depth. Between side walls the width does not count.
+TEST(NumericalErrors, TheBoxCountsWithItsArea) {
+    EXPECT_NEAR(box_error(layer(8, 5, 4)), 0.019, 1e-12);
+    EXPECT_NEAR(box_error(layer(16, 10, 4)), 0.019 / 4, 1e-12);
+    EXPECT_NEAR(box_error(layer(16, 10, 12)), 0.015, 1e-12);
+    EXPECT_NEAR(box_error(layer(8, 5, 20)), 0.05, 1e-12);
     scenario::Scenario walls = layer(8, 50, 4);
     walls.trough.side_wall_friction = 0.2;
-    EXPECT_NEAR(box_bound(walls), 0.03, 1e-12);
+    EXPECT_NEAR(box_error(walls), 0.019, 1e-12);
+}
+
+// The factors are those of the stored model: the half-width of what is left of a new layer's error, with the
+// mean m in it where the model would correct it, q x sqrt(t^2 + (h / q)^2 + m^2), h the half-width of m. The
+// quantile q of Student's distribution is near 2.1; three digits of the factors are kept.
+TEST(NumericalErrors, TheFactorsAreThoseOfTheStudy) {
+    std::istringstream file(core::read_file(fs::path(VALIDATION_FOLDER) / "numerics" / "model.csv"));
+    std::map<std::string, std::vector<std::vector<double>>> model;
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream cells(line);
+        std::string name, cell;
+        std::getline(cells, name, ',');
+        if (name != "softness" && name != "box" && name != "step") continue;
+        auto& row = model[name].emplace_back();
+        while (std::getline(cells, cell, ',')) row.push_back(cell == "inf" ? 99 : std::stod(cell));
+    }
+    enum { from, to, layers, mean, mean_half_width, deviation, least, most, correction, half_width };
+    auto const whole = [](std::vector<double> const& row) {
+        return row.at(correction) == 0 ? row.at(half_width)
+                                       : std::hypot(row.at(half_width), 2.09 * row.at(mean) * 0.0064);
+    };
+    scenario::Scenario s = layer(8, 5, 4);
+    double const modulus = 5e6;
+    ASSERT_EQ(model["softness"].size(), 3U);
+    for (auto const& row : model["softness"]) {
+        s.trough.given.throw_number = row.at(from) + 0.1;
+        double const square = std::pow(scenario::wave_number(s, modulus), 2);
+        EXPECT_NEAR(softness_error(s, modulus) / square, whole(row) / 0.0064, 0.05) << row.at(from);
+    }
+    EXPECT_NEAR(box_error(layer(8, 5, 4)), model["box"].front().at(half_width), 5e-4);
+    EXPECT_NEAR(numerical_errors(layer(8, 5, 4)).time_step, model["step"].front().at(half_width), 5e-4);
 }
 
 // Each setting that validation/convergence varied (6 diameters wide or 12 long, four deep) differs from its
@@ -75,13 +107,13 @@ TEST(NumericalErrors, TheBoundHoldsInTheStoredStudyOfBoxes) {
     for (int const length : {8, 12, 24}) {
         std::string const text = fmt::format("{} mm", 3 * length);
         EXPECT_LE(error(means.at("length").at(text), means.at("length").at("144 mm")),
-                  box_bound(layer(length, 6, 4)))
+                  box_error(layer(length, 6, 4)))
             << text;
     }
     for (int const width : {5, 6, 12}) {
         std::string const text = fmt::format("{} mm", 3 * width);
         EXPECT_LE(error(means.at("width").at(text), means.at("width").at("72 mm")),
-                  box_bound(layer(12, width, 4)))
+                  box_error(layer(12, width, 4)))
             << text;
     }
     EXPECT_LE(error(means.at("time_step").at("0.2"), means.at("time_step").at("0.1")),
@@ -92,7 +124,7 @@ TEST(NumericalErrors, TheirTotalIsTheRootOfTheSumOfSquares) {
     EXPECT_DOUBLE_EQ((NumericalErrors{0.02, 0.03, 0.06}).total(), 0.07);
     EXPECT_DOUBLE_EQ(whole_half_width(0.24, {0.02, 0.03, 0.06}), 0.25);
     scenario::Scenario const s = layer(8, 5, 4);
-    EXPECT_EQ(numerical_errors(s).softness, softness_bound(s, *s.grains.youngs_modulus));
+    EXPECT_EQ(numerical_errors(s).softness, softness_error(s, *s.grains.youngs_modulus));
 }
 
 // What is left: 0.05^2 = 0.04^2 + 0.03^2.

@@ -1,4 +1,4 @@
-#include "prepare/softness.hpp"
+#include "scenario/model/softness.hpp"
 
 #include "core/error.hpp"
 #include "prepare/prepared_case.hpp"
@@ -32,31 +32,50 @@ TEST(Softness, TheWaveNumberIsTheAngleOfACrossing) {
     EXPECT_NEAR(wave_number(c.scenario, 8 * 5e6), expected / 2, 1e-12 * expected) << "s goes with E^(-1/3)";
 }
 
-// The bound is at most what was asked for, and that of the next softer value of the series is not.
+// The wave number is at most the limit, and that of the next softer value of the series is not.
 TEST(Softness, TheChosenModulusIsTheLowestThatIsStiffEnough) {
     PreparedCase const c = prepare_case(scenario_of(example_campaign));
-    for (double const error : {0.05, 0.02, 0.01, 0.004, 0.001}) {
-        double const modulus = stiff_enough(c.scenario, error);
-        EXPECT_LE(softness_bound(c.scenario, modulus), error * (1 + 1e-9));
-        EXPECT_GT(softness_bound(c.scenario, modulus / 1.55), error)
+    for (double const limit : {0.1, 0.05, 0.02}) {
+        double const modulus = stiff_enough(c.scenario, limit);
+        EXPECT_LE(wave_number(c.scenario, modulus), limit * (1 + 1e-9));
+        EXPECT_GT(wave_number(c.scenario, modulus / 1.55), limit)
             << "the steps of the series are at most 1.5";
     }
-    EXPECT_EQ(stiff_enough(c.scenario, 10), 2e6) << "softer grains were not simulated";
+    EXPECT_EQ(stiff_enough(c.scenario, 3), 2e6) << "softer grains were not simulated";
 }
 
 TEST(Softness, WithoutAModulusACaseGetsOne) {
     PreparedCase const given = prepare_case(scenario_of(example_campaign)),
                        chosen = prepare_case(scenario_of(without_modulus()));
-    EXPECT_FALSE(given.modulus_chosen);
-    EXPECT_TRUE(chosen.modulus_chosen);
-    double const half_width = chosen.scenario.measure.half_width;
-    EXPECT_EQ(chosen.scenario.grains.youngs_modulus, stiff_enough(given.scenario, half_width / 2));
-    EXPECT_LE(chosen.numerics.softness, half_width / 2);
+    EXPECT_FALSE(given.scenario.grains.is_modulus_chosen);
+    EXPECT_TRUE(chosen.scenario.grains.is_modulus_chosen);
+    EXPECT_EQ(chosen.scenario.grains.youngs_modulus, stiff_enough(given.scenario, 0.079));
+    // The error is at most half of the usual half-width: 4 s^2 = 0.025.
+    EXPECT_LE(chosen.numerics.softness, 0.025);
     EXPECT_FALSE(is_soft(chosen.scenario));
     // The frozen case holds the number, so that it stays the same when the rule changes.
     EXPECT_NE(to_toml(chosen.scenario).find("youngs_modulus"), std::string::npos);
-    EXPECT_EQ(to_toml(scenario::parse_campaign(without_modulus(), "x").cases.front()).find("youngs_modulus"),
-              std::string::npos);
+}
+
+// What is asked for must not change the physics: the modulus and the id stay under a narrower half-width.
+TEST(Softness, ANarrowerHalfWidthIsTheSameCase) {
+    auto const asked = [](std::string const& half_width) {
+        return prepare_case(
+                   scenario_of(with("half_width = 0.02", "half_width = " + half_width, without_modulus())))
+            .scenario;
+    };
+    EXPECT_EQ(asked("0.05").grains.youngs_modulus, asked("0.01").grains.youngs_modulus);
+    EXPECT_EQ(identity_of(asked("0.05")), identity_of(asked("0.01")));
+}
+
+// All cases have the modulus that the most demanding one needs, the deepest or fastest.
+TEST(Softness, ACampaignHasOneModulus) {
+    std::string const swept = with("height = \"12 mm\"\n", "", without_modulus()) +
+                              "\n[sweep]\nlayer.height = [\"9 mm\", \"18 mm\", \"42 mm\"]\n";
+    auto const cases = scenario::parse_campaign(swept, "x").cases;
+    ASSERT_EQ(cases.size(), 3U);
+    for (scenario::Scenario const& one : cases)
+        EXPECT_EQ(one.grains.youngs_modulus, stiff_enough(cases.back(), 0.079));
 }
 
 // A deeper layer needs stiffer grains, whatever the modulus of its neighbour in the campaign.

@@ -147,7 +147,7 @@ TEST(Materials, MistakesAreNamedWithTheirPlace) {
     EXPECT_THAT(error(fines + "[[pairs]]\nmaterials = [\"grains\", \"fines\"]"),
                 HasSubstr("gives neither friction nor restitution"));
     EXPECT_THAT(error(fines + "[[pairs]]\nmaterials = [\"grains\", \"fines\"]\nfriction = 0.1\n"
-                              "[[pairs]]\nmaterials = [\"fines\", \"grains\"]\nrestitution = 0.1"),
+                              "[[pairs]]\nmaterials = [\"fines\", \"grains\"]\nrestitution = 0.3"),
                 HasSubstr("fines and grains are given twice"));
     EXPECT_THAT(error(fines + fines + fines + fines), HasSubstr("has 4 entries, more than 3"));
     EXPECT_THAT(error_of(with("rolling_friction = 0.0", "shape = \"cube\"", with_lists(fines))),

@@ -21,7 +21,7 @@ from layers import MODULI_MPA  # noqa: E402
 from simulate import boxes_and_steps, grid, judging_layers  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
-# |error| <= BOUND s^2, and MIDDLE s^2 for the layer in the middle: src/prepare/softness.cpp.
+# |error| <= BOUND s^2, and MIDDLE s^2 for the layer in the middle: src/prepare/numerical_errors.cpp.
 BOUND, MIDDLE = 4.0, 1.0
 ERRORS = ["study", "layer", "throw_number", "modulus_MPa", "wave_number", "error", "half_width"]
 STIFF_MPA = {3: 125, 6: 125, 12: 500, 20: 500}  # what stands for stiff grains on the grid, by depth

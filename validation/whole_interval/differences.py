@@ -39,7 +39,7 @@ class Difference:
 
 
 def softness_bound(wave_number: float) -> float:
-    """4 s^2 (section 1 of the README; src/prepare/softness.hpp)."""
+    """4 s^2 (section 1 of the README; src/prepare/numerical_errors.hpp)."""
     return 4 * wave_number**2
 
 

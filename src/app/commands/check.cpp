@@ -43,7 +43,7 @@ Json describe(prepare::PreparedCase const& prepared, int number, std::string con
             {"grain_density_kg_per_m3", density},
             {"bulk_density_kg_per_m3", scenario::settled_solid_fraction * density},
             {"youngs_modulus_pa", grains.youngs_modulus.value()},
-            {"youngs_modulus_chosen", prepared.modulus_chosen},
+            {"youngs_modulus_chosen", grains.is_modulus_chosen},
             {"findings", findings},
             {"numerical_error", prepared.numerics.total()},
             {"softness_error", prepared.numerics.softness},
@@ -119,8 +119,8 @@ void print_moduli(deck::CampaignCheck const& found) {
                                   ? ""
                                   : fmt::format(" in {} of {} cases", found.moduli_chosen, found.cases);
     fmt::print(
-        "Young's modulus: {}, chosen{}: the lowest with which soft grains change the efficiency by less than "
-        "half of measure.half_width (validation/deep_layers)\n",
+        "Young's modulus: {}, chosen{}: the lowest with which no layer of the campaign is softer than "
+        "solver.softness allows\n",
         values, cases);
 }
 

@@ -25,10 +25,10 @@ int run_work(WorkArguments& options) {
     if (options.time_limit > 0) options.limits.time_limit = options.time_limit;
     // The campaign's folder names the program that is started; whoever looks at the output shall see which.
     tell("engine: {}\n", campaign::read_engine(options.folder).program.string());
-    campaign::UntilPrecise const policy(learn::read_wanted_half_widths(options.folder));
+    auto const policy = campaign::make_policy(learn::read_wanted_half_widths(options.folder));
     int worst = all_well;
     for (campaign::PackingId const& packing : campaign::read_task(options.task_list, options.index)) {
-        campaign::WorkResult const result = campaign::work(options.folder, packing, options.limits, policy);
+        campaign::WorkResult const result = campaign::work(options.folder, packing, options.limits, *policy);
         fmt::print("{}\n", result.message);
         std::fflush(stdout);  // a task that is killed later has said what became of this packing
         if (result.kind == campaign::WorkResult::interrupted) return interrupted;

@@ -4,8 +4,8 @@
 
 namespace vibrotrough::campaign {
 
-std::unique_ptr<Policy> make_policy() {
-    return std::make_unique<UntilPrecise>();
+std::unique_ptr<Policy> make_policy(HalfWidths half_widths) {
+    return std::make_unique<UntilPrecise>(std::move(half_widths));
 }
 
 bool is_enough(KnownCase const& known, deck::PackingPlan const& wanted) {

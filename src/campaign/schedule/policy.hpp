@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -60,8 +61,11 @@ bool is_enough(KnownCase const& known, deck::PackingPlan const& wanted);
 /// Whether it has them, and its run has ended.
 bool is_done(KnownCase const& known, deck::PackingPlan const& wanted);
 
-/// The policy that a campaign asks for.
-std::unique_ptr<Policy> make_policy();
+/// Half-widths wanted of single cases, by id, in place of measure.half_width.
+using HalfWidths = std::map<std::string, double>;
+
+/// The policy that a campaign asks for: the only place that chooses one.
+std::unique_ptr<Policy> make_policy(HalfWidths half_widths = {});
 
 /// What the files say of a case, for a policy. Reads the cycles of finished packings.
 KnownCase know(PlannedCase const& planned);

@@ -2,8 +2,7 @@
 
 #include "campaign/schedule/policy.hpp"
 
-#include <map>
-#include <string>
+#include <utility>
 
 namespace vibrotrough::campaign {
 
@@ -16,9 +15,6 @@ namespace vibrotrough::campaign {
 /// after a crash.
 class UntilPrecise : public Policy {
   public:
-    /// Half-widths wanted of single cases, by id, in place of measure.half_width.
-    using HalfWidths = std::map<std::string, double>;
-
     /// @param half_widths  of single cases; all others as measure.half_width asks
     explicit UntilPrecise(HalfWidths half_widths = {}) : half_widths_(std::move(half_widths)) {}
     CaseDecision decide(KnownCase const& known) const override;

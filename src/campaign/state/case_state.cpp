@@ -6,6 +6,7 @@
 #include "core/text.hpp"
 #include "core/time.hpp"
 #include "evaluate/case.hpp"
+#include "prepare/numerical_errors.hpp"
 #include "store/result_file.hpp"
 
 #include <algorithm>
@@ -51,12 +52,22 @@ void write_failure(PlannedCase const& planned, Failure const& failure) {
     core::write_file_atomically(planned.failure_file(), json.dump(2) + "\n");
 }
 
+void judge_again(PlannedCase const& planned, store::CaseRecord& record) {
+    using enum core::Outcome;
+    bool const is_steady = record.outcome == finished || record.outcome == not_precise;
+    if (!is_steady || !record.estimate.half_width) return;
+    bool const is_enough = prepare::is_narrow_enough(*record.estimate.half_width, planned.scenario());
+    record.outcome = is_enough ? finished : not_precise;
+}
+
 std::optional<store::CaseRecord> read_whole_result(PlannedCase const& planned) {
     std::error_code missing;
     if (!fs::is_regular_file(planned.result_file(), missing)) return {};
     try {
         store::CaseRecord record = store::read_result(planned.result_file());
-        if (record.id == planned.id) return record;
+        if (record.id != planned.id) return {};
+        judge_again(planned, record);
+        return record;
     } catch (core::Error const&) {
         // Damaged: the case is as good as not run, and will be run.
     }

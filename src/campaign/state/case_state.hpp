@@ -20,6 +20,10 @@ std::optional<Failure> read_failure(PlannedCase const& planned);
 /// Writes failure.json. @throws core::MissingError when the disk refuses
 void write_failure(PlannedCase const& planned, Failure const& failure);
 
+/// Says anew whether a steady case is finished or not precise: another half-width may be wanted than when it
+/// was evaluated.
+void judge_again(PlannedCase const& planned, store::CaseRecord& record);
+
 /// The case's result if result.h5 is there and whole; a damaged file counts as none.
 std::optional<store::CaseRecord> read_whole_result(PlannedCase const& planned);
 

@@ -24,6 +24,7 @@ std::string not_covered(EnginePlan const& plan) {
     std::vector<std::string> parts;
     if (plan.contact != ContactModel::hertz)
         parts.push_back(fmt::format("contact {}", name_of(plan.contact)));
+    if (plan.tangential_damping) parts.emplace_back("tangential damping");
     if (plan.cohesion > 0) parts.emplace_back("cohesion sjkr");
     if (plan.templates) {
         for (NamedFile const& file : plan.templates->files) parts.push_back("template " + file.name);

@@ -30,6 +30,7 @@ bool is_template_name(std::string_view name);
 struct EnginePlan {
     ContactModel contact = ContactModel::hertz;  ///< normal force
     double cohesion = 0;                         ///< J/m^3, energy density of the model sjkr; 0: none
+    bool tangential_damping = false;             ///< beside the tangential spring; Coulomb's limit stays
     /// Templates in place of the program's own, if any.
     std::shared_ptr<DeckTemplates const> templates = nullptr;
 };

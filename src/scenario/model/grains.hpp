@@ -51,12 +51,13 @@ struct Grains {
     double diameter;         ///< m; of a clump, of the sphere with the clump's volume; of a list, its mean
     double diameter_spread;  ///< s, width of the size law
     double density;          ///< kg/m^3, of the material
-    std::optional<double> youngs_modulus;  ///< Pa, of grain and trough; none: prepare chooses it
+    std::optional<double> youngs_modulus;  ///< Pa, of grain and trough; none: choose_modulus() (softness.hpp)
+    bool is_modulus_chosen = false;        ///< whether choose_modulus() gave it
     double poisson_ratio;                  ///< of grain and trough
     double friction;                       ///< coefficient of grain on grain
-    double restitution;       ///< coefficient of grain on grain, nominal value of the contact model
-    double rolling_friction;  ///< coefficient of the epsd2 model
-    Rotation rotation = Rotation::free;         ///< how grains may rotate
+    double restitution;                    ///< coefficient of grain on grain
+    double rolling_friction;               ///< coefficient of the epsd2 model
+    Rotation rotation = Rotation::free;    ///< how grains may rotate
     SizeLaw size_law = SizeLaw::three_classes;  ///< how diameters are distributed
     std::vector<double> diameters = {};         ///< m, of a list
     std::vector<double> number_fractions = {};  ///< of a list; empty if it has mass fractions

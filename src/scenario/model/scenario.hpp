@@ -43,7 +43,7 @@ struct Trough {
     double amplitude;        ///< r, m, in the direction of vibration: half the stroke
     double frequency;        ///< 1/T, Hz
     double friction;         ///< mu, coefficient of grain on trough
-    double restitution;      ///< e, coefficient of grain on trough, nominal value of the contact model
+    double restitution;      ///< e, coefficient of grain on trough
     std::optional<double> side_wall_friction =
         {};                  ///< coefficient of grain on side wall; periodic across without
     double along_phase = 0;  ///< rad, lead of x over z, which makes the drive elliptical
@@ -125,7 +125,8 @@ int packings_with_frames(OutputPlan const& output, int packings);
 /// Numerical settings, on which the results should depend as little as possible.
 struct SolverPlan {
     double rayleigh_fraction = 0.2;  ///< upper bound of time step / Rayleigh time of the smallest grain
-    double block_stiffness = 300;    ///< duration of a cycle / duration of a block's contact
+    double softness = 0.079;       ///< rad, largest wave_number() (softness.hpp) of grains without a modulus
+    double block_stiffness = 300;  ///< duration of a cycle / duration of a block's contact
 };
 
 /// One validated case. SI units throughout.

@@ -3,6 +3,8 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "scenario/model/softness.hpp"
+#include "scenario/reader/case_maker.hpp"
 #include "scenario/reader/case_values.hpp"
 #include "scenario/reader/file_reader.hpp"
 
@@ -79,6 +81,9 @@ Campaign parse_campaign(std::string_view text, std::string const& name, FileSour
         throw_at({name, parsed.exclusions.front().front().where}, "exclude", "all cases are left out",
                  "exclude fewer");
     }
+    auto const modulus = modulus_of_domain(parsed, name, source);
+    for (Scenario& one : campaign.cases) give_modulus(one, modulus);
+    choose_modulus(campaign.cases);
     campaign.swept = swept_keys(varied_keys(parsed), campaign.cases);
     return campaign;
 }

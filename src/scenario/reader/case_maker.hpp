@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,12 @@ class CaseMaker {
     CampaignText text_;
     std::vector<std::string> varied_;
     FileSource source_;
+    std::optional<double> modulus_;  ///< of the grains in all of the domain, Pa
 };
+
+/// Young's modulus for all cases of the domain of a surface, Pa: that of the corners of the domain
+/// (choose_modulus()). None without a domain, and where the file gives the modulus.
+std::optional<double> modulus_of_domain(CampaignText const& text, std::string const& file,
+                                        FileSource const& source);
 
 }  // namespace vibrotrough::scenario

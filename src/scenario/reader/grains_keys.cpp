@@ -69,16 +69,17 @@ constexpr std::array rows_of_grains{
                   }}
             .written_if(never)},
     Key{"grains.youngs_modulus", quantity, "Pa", 1e5, 1e12, "0.1 MPa to 1 TPa", "", optional, "\"50 MPa\"",
-        "Young's modulus of grains and trough; if it is left out, each case gets the lowest one that is "
-        "stiff "
-        "enough for its depth and drive, because softer grains allow a longer time step",
+        "Young's modulus of grains and trough; if it is left out, the campaign gets the lowest one that is "
+        "stiff enough for the depths and drives of all of its cases (solver.softness), because softer grains "
+        "allow a longer time step",
         field<&Scenario::grains, &Grains::youngs_modulus>},
     Key{"grains.poisson_ratio", number, "", 0, 0.49, "", "", required, "0.35",
         "Poisson's ratio of grains and trough", field<&Scenario::grains, &Grains::poisson_ratio>},
     Key{"grains.friction", number, "", 0, 5, "", "", required, "0.5",
         "friction coefficient of grain on grain", field<&Scenario::grains, &Grains::friction>},
     Key{"grains.restitution", number, "", 0.05001, 1, "above 0.05, to 1", "", required, "0.5",
-        "coefficient of restitution of grain on grain", field<&Scenario::grains, &Grains::restitution>},
+        "coefficient of restitution of grain on grain: the speed after an impact over that before",
+        field<&Scenario::grains, &Grains::restitution>},
     Key{"grains.rolling_friction", number, "", 0, 5, "", "", 0.0, "0.1",
         "coefficient of the rolling friction model epsd2 at all contacts, for rotation = \"rolling\"",
         field<&Scenario::grains, &Grains::rolling_friction>},

@@ -100,6 +100,12 @@ constexpr std::array rows_of_plans{
     Key{"solver.rayleigh_fraction", number, "", 0.01, 0.5, "", "", 0.2, "0.2",
         "largest time step, as a fraction of the Rayleigh time of the smallest grain",
         field<&Scenario::solver, &SolverPlan::rayleigh_fraction>},
+    Key{"solver.softness", number, "", 0.005, 0.3, "", "", 0.079, "0.05",
+        "how soft grains without grains.youngs_modulus may be: the angle (rad) by which the trough moves on "
+        "while its landing crosses the layer. All cases of a campaign get the same modulus, the lowest one "
+        "with which none is softer. The error of the velocity efficiency goes with its square, the cost with "
+        "its power of -1.5",
+        field<&Scenario::solver, &SolverPlan::softness>.unless_default()},
     Key{"solver.block_stiffness", number, "", 30, 10000, "", "", 300.0, "300",
         "duration of a cycle divided by the duration of a block's contact",
         field<&Scenario::solver, &SolverPlan::block_stiffness>},
@@ -112,6 +118,10 @@ constexpr std::array rows_of_plans{
         "energy density of the cohesion model sjkr: grains and trough attract each other with this pressure "
         "times the area of their contact",
         field<&Scenario::engine, &EnginePlan::cohesion>.unless_default()},
+    Key{"engine.tangential_damping", truth, "", 0, 1, "true or false", "", 0.0, "true",
+        "damping of the tangential spring of a contact, added to Coulomb's limit. An impact at an angle then "
+        "keeps more of its speed along the trough; layers change by about 0.01 (validation/history)",
+        field<&Scenario::engine, &EnginePlan::tangential_damping>.unless_default()},
     Key{"engine.templates", texts, "", 0, 0, "1 to 30 names of .mustache files in the same folder", "",
         optional, "[\"contact.mustache\"]",
         "templates of the decks that replace those of input_templates; their commands can do anything, so "

@@ -3,6 +3,8 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 
+#include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -11,6 +13,10 @@
 
 namespace vibrotrough::scenario {
 namespace {
+
+/// Keys that say how long a case is simulated, and not what. Asked for more, the same packings go on.
+constexpr std::array<std::string_view, 4> not_in_identity{"campaign.name", "measure.half_width",
+                                                          "measure.max_packings", "measure.max_core_time"};
 
 /// Appends a value as TOML. fmt's "{}" prints the shortest text that reads back as the same double.
 struct TomlValue {
@@ -88,9 +94,7 @@ std::string identity_of(Scenario const& scenario) {
     canonical.trough.given = {};
     std::string text;
     for (Key const& key : all_keys()) {
-        if (key.path == "campaign.name" || key.path == "measure.max_packings" ||
-            key.path == "measure.max_core_time")
-            continue;
+        if (std::ranges::find(not_in_identity, key.path) != std::end(not_in_identity)) continue;
         if (auto const value = written_value(key, canonical)) add_line(text, key.path, key, *value);
     }
     for (NamedFile const& file : named_files(scenario))
