@@ -104,7 +104,8 @@ class EngineSection(EndToEndTest):
             found, time_step = self.checked(campaign)
             deck, _ = self.deck_of(campaign)
             chosen = float(re.search(r"characteristicVelocity scalar (\S+)", deck).group(1))
-            z = damping_ratio(restitution)
+            nominal = float(re.search(r"coefficientRestitution peratomtypepair \S+ (\S+)", deck).group(1))
+            z = damping_ratio(nominal)
             expected = {}
             for kind, share in (("floor", 1.0), ("grains", 0.5)):
                 elastic = 16 / 15 * MODULUS * math.sqrt(share * RADIUS)

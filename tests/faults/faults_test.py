@@ -20,7 +20,7 @@ from trough_program import PROGRAM, EndToEndTest, processes_in, wait_until, with
 
 LIBRARY = os.environ["VIBROTROUGH_FAULT_LIBRARY"]
 FAULTS = os.environ.get("VIBROTROUGH_FAULTS", "12")
-CHANGES = {"measure.packings": 2, "measure.max_cycles": 20, "measure.half_width": 1.0, "layer.grains": 20}
+CHANGES = {"measure.packings": 2, "measure.max_cycles": 40, "measure.half_width": 1.0, "layer.grains": 20}
 # Columns of campaign.h5 in which two runs of the same campaign differ.
 OF_THE_MOMENT = ("started", "finished", "wall_time", "core_time")
 # What can happen to a call of each kind, in turn.
