@@ -71,10 +71,10 @@ def draw_flow(data: Data) -> Any:
         return ""
     model = least_sure(data)
     if model["budget"]:
-        figure, (axes, beside) = new_figure(1, 2, size=(7.0, 3.3), gridspec_kw={"width_ratios": [1.35, 1]})
+        figure, (axes, beside) = new_figure(1, 2, size=(7.0, 2.7), gridspec_kw={"width_ratios": [1.35, 1]})
         draw_budget(beside, model)
     else:
-        figure, axes = new_figure(size=(7.0, 3.3))
+        figure, axes = new_figure(size=(7.0, 2.7))
     plain_axes(axes)
     probability = 1 - np.array(data["quantile_shares"])
     known = [model for model in [*data["models"], *data["models_beside"]] if model["mass_flow_quantiles_t_per_h"]]
@@ -97,11 +97,53 @@ def number(value: float | None) -> str:
     return NOT_KNOWN if value is None else f"{value:.3g}"
 
 
-def exciter_rows(exciter: Data | None) -> list[tuple[str, str, str]]:
+Rows = list[tuple[str, str, str]]
+
+
+def digits(value: float, count: int) -> str:
+    """A number with so many digits, without an exponent."""
+    return f"{float(f'{value:.{count}g}'):,.15g}".replace(",", "\u2009")
+
+
+def spring_rows(springs: Data | None) -> Rows:
+    if springs is None:
+        return []
+    return [("springs", f"sag {springs['sag_mm']:.0f} mm",
+             f"natural frequency {springs['natural_frequency_empty_hz']:.3g} Hz empty, {springs['natural_frequency_loaded_hz']:.3g} Hz loaded"),
+            ("on the building", f"{digits(springs['force_on_building_n'], 2)} N",
+             f"amplitude of the force, isolation {100 * springs['isolation']:.0f} %"),
+            ("at the resonance", f"{springs['stroke_ratio_at_stop']:.2g} \u00d7 the stroke",
+             f"running out in 10 s, {springs['stroke_ratio_at_start']:.2g} \u00d7 at a start, undamped")]
+
+
+def exciter_rows(exciter: Data | None) -> Rows:
+    """What moves the trough."""
     if exciter is None:
         return []
-    return [("exciter", f"{1e3 * exciter['static_moment_kg_m']:.4g} kg mm",
-             f"static moment, {1e-3 * exciter['centrifugal_force_n']:.3g} kN; {exciter['stroke_empty_mm']:.4g} mm when empty")]
+    motors = exciter["motors"]
+    return [("moving mass", f"{digits(exciter['moving_mass_kg'], 3)} kg",
+             f"{digits(exciter['trough_mass_kg'], 3)} kg of the trough and {100 * exciter['added_mass_fraction']:.2g} % of {digits(exciter['material_kg'], 3)} kg of material"),
+            ("exciter", f"{1e3 * exciter['static_moment_kg_m']:.4g} kg mm",
+             f"static moment, {1e-3 * exciter['centrifugal_force_n']:.3g} kN; stroke {exciter['stroke_empty_mm']:.1f} mm when empty"),
+            *([] if motors is None else [
+                ("motors", motors["text"], f"{motors['rpm']:.4g} 1/min, {1e3 * motors['static_moment_kg_m']:.3g} kg mm and {1e-3 * motors['power_w']:.2g} kW each"
+                 + (", by a converter" if motors["frequency_converter"] else ""))]),
+            *spring_rows(exciter["springs"])]
+
+
+def asked_rows(data: Data, task: Data) -> Rows:
+    surge = f" in a surge of {task['surge']:g} times {data['mass_flow_wanted_t_per_h'] / task['surge']:.4g} t/h" if task["surge"] > 1 else ""
+    friction = f"friction {data['friction_median']:.3g}" + (
+        f" ({data['friction_low']:.3g} to {data['friction_high']:.3g})" if data["friction_low"] < data["friction_high"] else ", taken as exact")
+    size, rolling = task["grain_diameter_mm"], task["rolling_friction"]
+    return [
+        *([("project", data["project"], f"revision {data['revision']}" if data["revision"] else "")] if data.get("project") or data.get("revision") else []),
+        ("mass flow", f"{data['mass_flow_wanted_t_per_h']:.4g} t/h", f"with {100 * data['confidence']:.4g} %{surge}; {data['objective'].replace('-', ' ')}"),
+        ("trough", f"{1e3 * task['width_m']:.4g} mm wide", f"{task['length_m']:.4g} m long" if task["length_m"] else ""),
+        *([("drive", task["drive"], "its usual limits")] if task["drive"] else []),
+        ("material", f"{task['bulk_density_kg_per_m3']:.4g} kg/m\u00b3", "; ".join(part for part in (task["material"], friction) if part)),
+        ("grains", NOT_KNOWN if size is None else f"{size:.3g} mm", "rolling friction " + (NOT_KNOWN if rolling is None else f"{rolling:.3g}")),
+    ]
 
 
 def row_of_model(model: Data, name: str) -> list[str]:
@@ -113,7 +155,7 @@ def row_of_model(model: Data, name: str) -> list[str]:
 
 def design_page(data: Data) -> Page:
     task = data["task"]
-    power = f"{data['power_w']:.3g} W" if "power_w" in data else f"{data['power_w_per_m']:.3g} W/m"
+    power = f"{digits(data['power_w'], 3)} W" if "power_w" in data else f"{digits(data['power_w_per_m'], 3)} W/m"
     landing = task["max_landing_speed_m_per_s"]
     frictions = [f"{data[key]:.3g}" for key in ("friction_low", "friction_high")]
     machine = [
@@ -121,21 +163,16 @@ def design_page(data: Data) -> Page:
         ("speed of the drive", f"{data['rpm']:.4g} 1/min", f"{data['frequency_hz']:.4g} Hz; {allowed(task['rpm'], '1/min')}"),
         ("vibration angle", f"{data['vibration_angle_deg']:.4g}\u00b0", f"{allowed(task['vibration_angle_deg'], DEGREE)}"),
         ("inclination", f"{data['inclination_deg']:.4g}\u00b0", f"uphill positive; {allowed(task['inclination_deg'], DEGREE)}"),
-        ("layer depth", f"{data['layer_depth_mm']:.4g} mm", f"{allowed([1e3 * depth for depth in task['depth_m']], 'mm')}"),
+        ("layer depth", f"{data['layer_depth_mm']:.1f} mm",
+         f"{data['depth_in_operation_mm']:.0f} mm at the nominal flow; {allowed([1e3 * depth for depth in task['depth_m']], 'mm')}"),
+        ("side walls", f"{data['side_wall_mm']:.0f} mm", "or higher, as usual"),
         ("throw number \u0393", f"{data['throw_number']:.3g}", f"at most {task['max_throw_number']:.4g}"),
         ("machine number K", f"{data['machine_number']:.3g}", f"at most {task['max_machine_number']:.4g}"),
         ("landing speed", f"{data['landing_speed_m_per_s']:.3g} m/s",
          (f"at most {landing:.4g} m/s, " if landing is not None else "") + ("for a friction of " if len(set(frictions)) == 1 else "for frictions of ") + " to ".join(dict.fromkeys(frictions))),
         ("power", power, "given to the material (point mass)"),
-        *exciter_rows(data["exciter"]),
+        *([("time on trough", f"{data['time_on_trough_s']:.3g} s", f"at most, with {100 * data['confidence']:.4g} %")] if data["time_on_trough_s"] else []),
         ("held back by", "", ", ".join(data["active_limits"]).replace("<=", "\u2264").replace(">=", "\u2265") or "nothing"),
-    ]
-    asked = [
-        ("mass flow", f"{data['mass_flow_wanted_t_per_h']:.4g} t/h", f"with {100 * data['confidence']:.4g} %; {data['objective'].replace('-', ' ')}"),
-        ("trough", f"{1e3 * task['width_m']:.4g} mm wide", f"{task['length_m']:.4g} m long" if task["length_m"] else ""),
-        ("material", f"{task['bulk_density_kg_per_m3']:.4g} kg/m\u00b3",
-         f"friction {data['friction_median']:.3g}" + (
-             f" ({data['friction_low']:.3g} to {data['friction_high']:.3g})" if data["friction_low"] < data["friction_high"] else ", taken as exact")),
     ]
     sure = f"{100 * data['confidence']:.4g} %"
     models = [row_of_model(model, model["model"]) for model in data["models"]]
@@ -144,12 +181,13 @@ def design_page(data: Data) -> Page:
               f"{rule['low_m_per_s']:.3g} to {rule['high_m_per_s']:.3g}" if rule["low_m_per_s"] else ""]
              for rule in data["rules_of_thumb"]]
     return {
-        "title": "Design of a vibrating trough",
+        "title": f"Design of a vibrating trough{': ' + data['project'] if data.get('project') else ''}",
         "good": data["feasible"],
         "conclusion": [data["sentence"],
-                       f"Stroke {data['stroke_mm']:.4g} mm, {data['rpm']:.4g} 1/min, {data['vibration_angle_deg']:.4g}\u00b0, layer {data['layer_depth_mm']:.4g} mm deep.",
+                       f"Stroke {data['stroke_mm']:.4g} mm, {data['rpm']:.4g} 1/min, {data['vibration_angle_deg']:.4g}\u00b0, layer {data['layer_depth_mm']:.1f} mm deep.",
                        *([data["verification"]] if "verification" in data else [])],
-        "facts": [{"heading": "The machine", "rows": machine}, {"heading": "What was asked", "rows": asked}],
+        "facts": [{"heading": heading, "rows": rows} for heading, rows in (
+            ("The machine", machine), ("What moves it", exciter_rows(data["exciter"])), ("What was asked", asked_rows(data, task))) if rows],
         "svg": draw_flow(data),
         "caption": "" if data["untested"] is not None else
                    "Probability of a mass flow or more at this layer depth; dotted: the confidence asked. "

@@ -45,6 +45,17 @@ def draw_band(axes: Axes, over: Floats, mean: Floats, half_width: Floats, number
     axes.margins(x=0.01)
 
 
+def plot_screening(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:
+    """Of a batch on a screen: which share of the undersize has passed, over the length of screen."""
+    length, efficiency, half_width = (column(result, "screening", name) for name in ("distance", "efficiency", "efficiency_half_width"))
+    if len(length) == 0 or not np.isfinite(efficiency).any():
+        return []
+    _, axes = new_figure()
+    draw_band(axes, length, efficiency, np.nan_to_num(half_width))
+    axes.set(xlabel="length of the screen  [m]", ylabel="efficiency of screening  [-]", ylim=(0, 1.03))
+    return finish(source, case, axes, output)
+
+
 def plot_partition(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:
     size, stays, low, high, model = (column(result, "partition", name) for name in ("diameter", "stays", "stays_low", "stays_high", "stays_by_model"))
     if len(size) == 0:

@@ -34,7 +34,7 @@ from figure_style import FORMATS, Problem, TooMany, TooNarrow, WrongInput, one_l
 from matplotlib import pyplot as plt
 from plot_campaign import plot_efficiency
 
-KINDS = ("efficiency", "speed", "mass_flow", "residuals", "budget", "cycles", "portraits", "spin", "profiles", "partition", "segregation", "along", "residence", "stages")
+KINDS = ("efficiency", "speed", "mass_flow", "residuals", "budget", "cycles", "portraits", "spin", "profiles", "screening", "partition", "segregation", "along", "residence", "stages")
 
 
 # What a machine does, and the columns that say it, the best first.
@@ -169,7 +169,8 @@ def draw_case(source: Source, only: Collection[str], case: str) -> Iterator[list
     """The figures of one case, when its result.h5 is there and whole."""
     drawers = {"cycles": figure_cycles.plot_cycles, "portraits": figure_portraits.plot_portraits,
                "spin": figure_spin.plot_spin, "profiles": figure_portraits.plot_profiles,
-               "partition": figure_tables.plot_partition, "segregation": figure_tables.plot_segregation,
+               "screening": figure_tables.plot_screening, "partition": figure_tables.plot_partition,
+               "segregation": figure_tables.plot_segregation,
                "along": figure_tables.plot_along, "residence": figure_tables.plot_residence, "stages": figure_tables.plot_stages}
     wanted = [kind for kind in drawers if kind in only]
     if not wanted:

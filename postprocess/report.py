@@ -23,7 +23,7 @@ from drawn_figures import DrawnFigures, digest_of_data, drawing_of, read_note, w
 from figure_columns import half_width_name
 from figure_style import Problem, one_line, plain, shown
 from report_reasons import reasons
-from report_words import conclusion
+from report_words import conclusion, kind_of
 
 # Of units that are not written as they are.
 UNIT_SIGNS = {"1": "", "degree": "\u00b0", "1/minute": "1/min", "t/h/m": "t/h per m", "W/m2": "W/m\u00b2", "N s/m3": "N s/m\u00b3"}
@@ -51,6 +51,7 @@ CASE_FIGURES = [
     ("portraits", "Layer and point mass over a cycle"),
     ("spin", "Spin and slip of the floor grains over a cycle"),
     ("profiles", "Velocity over height"),
+    ("screening", "Efficiency of screening over the length of the screen"),
     ("partition", "Partition curve of the screen"),
     ("segregation", "Segregation of the materials"),
     ("along", "Depth and speed along the trough"),
@@ -131,7 +132,10 @@ class Figures:
 
 
 # Before the efficiencies, because a screen is narrower than the table.
-WHAT_A_MACHINE_DOES = ("conveying_speed_m_per_s", "mass_flow_t_per_h", "mass_flow_per_width_t_per_h_m")
+WHAT_A_MACHINE_DOES = ("screening_efficiency", "cut_size", "screen_distance", "outflow", "residence_time", "conveying_speed_m_per_s",
+                       "mass_flow_t_per_h", "mass_flow_per_width_t_per_h_m")
+# Of which machine which figures of a case stand at the top, beside the answer.
+FIRST_FIGURES = {"screen": ("screening", "partition"), "open trough": ("along", "residence"), "layer": ()}
 
 
 # What only some readers look for: shown at the push of a button, so that the rest fits on a screen.
@@ -242,12 +246,18 @@ def render(directory: pathlib.Path, output: pathlib.Path) -> str:
         for case in cases
         if (found := figures.all([(f"{kind}-{case['case']}", title) for kind, title in CASE_FIGURES], case["case"]))
     ] if len(cases) <= MOST_CASES else []
+    kind = kind_of(cases)
+    at_top = [figure for name in FIRST_FIGURES[kind] for figure in (single[0]["figures"] if single else []) if figure["kind"] == name]
+    if single:
+        single[0]["figures"] = [figure for figure in single[0]["figures"] if figure not in at_top]
     folder = pathlib.Path(__file__).resolve().parent
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder), autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     return environment.get_template("report.html").render(
         overview=overview,
         conclusion=conclusion(cases),
+        kind=kind,
+        first_figures=at_top,
         reasons=reasons(overview),
         differences=differences_of(overview),
         engine=overview["engine_version"].replace(", git commit unknown", ""),

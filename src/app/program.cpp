@@ -41,9 +41,8 @@ What do you want to do?
   size a trough for a mass flow, and know how sure that is:
       vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
           --friction 0.3 --friction-uncertainty 0.03
-  know the speed of a machine, by the theory:
-      vibrotrough theory point --frequency "800 rpm" --stroke "12 mm" \
-          --vibration-angle "30 deg" --friction 0.3
+  know the speed of a machine, with its material:
+      vibrotrough predict --rpm 960 --stroke "8 mm" --vibration-angle "30 deg" --friction 0.3
   know the friction of a material, from a shake test:
       vibrotrough theory friction --machine-number 1.5 --max-relative-displacement 1.9
   know the friction of a material, from speeds that were measured:

@@ -150,9 +150,12 @@ void check_softness(std::vector<Finding>& findings, prepare::PreparedCase const&
     double const wanted = c.scenario.measure.half_width;
     double const s = scenario::wave_number(c.scenario, *c.scenario.grains.youngs_modulus);
     double const limit = s * std::sqrt(wanted / 2 / c.numerics.softness);
+    // A cohesion needs the modulus that it was chosen for.
+    bool const is_needed = c.scenario.engine.cohesion > 0;
     std::string const advice = fmt::format(
-        "leave out grains.youngs_modulus, so that it is chosen, or write at least {:.3g} MPa: a landing "
-        "takes {:.2g} degrees of the cycle to cross the layer (validation/deep_layers)",
+        "{}write at least {:.3g} MPa: a landing takes {:.2g} degrees of the cycle to cross the layer "
+        "(validation/deep_layers)",
+        is_needed ? "" : "leave out grains.youngs_modulus, so that it is chosen, or ",
         scenario::stiff_enough(c.scenario, limit) / 1e6, s * 180 / std::numbers::pi);
     findings.push_back(most("error of eta by soft grains", "grains.youngs_modulus", c.numerics.softness,
                             wanted / 2 * (1 + 1e-9), 2 * wanted, advice));
@@ -320,6 +323,20 @@ void check_each_material(std::vector<Finding>& findings, prepare::PreparedCase c
     findings.insert(findings.end(), worst.begin(), worst.end());
 }
 
+/// Between grains so small the air decides, which LIGGGHTS does not have here: it cannot escape during a
+/// throw.
+void check_air(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    constexpr double mm = 1e-3, noticeable = 0.5, decisive = 0.2;
+    double const diameter = mean_diameter(c.scenario) / mm;
+    if (diameter >= noticeable) return;
+    findings.push_back(
+        least("diameter of the grains, because of the air between them", "grains.diameter", diameter,
+              noticeable, decisive,
+              "use larger grains: between those below about 0.2 mm the air cannot escape during a "
+              "throw and carries the layer, and it is not simulated"));
+    findings.back().unit = "mm";
+}
+
 /// All checks but those of the whole run, for a drive without stages.
 std::vector<Finding> check_drive(prepare::PreparedCase const& prepared) {
     std::vector<Finding> findings;
@@ -335,6 +352,7 @@ std::vector<Finding> check_drive(prepare::PreparedCase const& prepared) {
         check_softness(findings, prepared);
         check_numerics(findings, prepared);
         check_sizes(findings, prepared);
+        check_air(findings, prepared);
         check_screen(findings, prepared);
     }
     check_stroke(findings, prepared);

@@ -1,7 +1,6 @@
 #include "learn/design_details.hpp"
 
 #include "core/text.hpp"
-#include "learn/driven_design.hpp"
 #include "learn/rules_of_thumb.hpp"
 
 #include <algorithm>
@@ -81,35 +80,6 @@ double share_of(BudgetShare const& one, ModelForecast const& f) {
     return f.flow_sd > 0 ? one.sd * one.sd / (f.flow_sd * f.flow_sd) : 0;
 }
 
-char const* source_of(AddedMassSource source) {
-    static constexpr std::array names{"as makers count", "as given", "the atlas of layers"};
-    return names.at(static_cast<std::size_t>(source));
-}
-
-/// The exciter of a machine under its layer.
-struct ExcitedMachine {
-    Exciter exciter;
-    double material;     ///< kg
-    double empty;        ///< m, amplitude without material
-    double usual_power;  ///< W
-};
-
-ExcitedMachine excited(DesignTask const& t, RiskDesign const& d) {
-    double const f = d.drive.frequency, material = material_on(t, d.depth);
-    MovedMachine machine = *t.machine;
-    if (!machine.exciter) machine.exciter = exciter_needed(machine, f, material, d.drive.amplitude);
-    return {*machine.exciter, material, amplitude_of(machine, f, 0),
-            usual_drive_power(machine.moving_mass(material), d.drive.amplitude, f)};
-}
-
-/// One line, where the atlas knows the damping of the layer.
-std::string damping_text(MovedMachine const& machine) {
-    if (!machine.damping) return "";
-    return fmt::format(
-        "damping           of the layer: {:.3g} of its mass times omega (the atlas of layers)\n",
-        machine.damping->mean);
-}
-
 }  // namespace
 
 std::string budget_text(RiskDesign const& d) {
@@ -136,46 +106,6 @@ Json budget_json(ModelForecast const& f) {
                         {"share_of_variance", share_of(one, f)},
                         {"sure_if_known_t_per_h", tonnes_per_hour * one.gained}});
     return list;
-}
-
-std::string exciter_text(DesignTask const& t, RiskDesign const& d) {
-    if (!t.machine) return "";
-    ExcitedMachine const m = excited(t, d);
-    double const moment = m.exciter.static_moment;
-    std::string text = fmt::format(
-        "exciter           static moment {:.4g} kg mm (working moment {:.4g} cm kg), {:.3g} kN, all motors "
-        "together{}\n",
-        1e3 * moment, 200 * moment, 1e-3 * force_of(m.exciter, d.drive.frequency),
-        t.machine->exciter ? "" : ": what this stroke needs");
-    text += fmt::format(
-        "stroke when empty {:.4g} mm; {:.3g} kg of material are on the trough, and {:.3g} % of it move "
-        "along ({})\n{}",
-        2e3 * m.empty, m.material, 100 * t.machine->added_mass.mean, source_of(t.machine->added_mass_source),
-        damping_text(*t.machine));
-    if (double const resonance = resonance_of(*t.machine, m.material); resonance > 0)
-        text += fmt::format("resonance         {:.4g} 1/min, of the springs\n", 60 * resonance);
-    text += fmt::format(
-        "drive             makers of crank drives install {:.3g} W for the moved mass (F A omega / sqrt 2, "
-        "ROSTA); "
-        "springs\n                  and bearings lose what their makers say\n",
-        m.usual_power);
-    return text;
-}
-
-Json exciter_json(DesignTask const& t, RiskDesign const& d) {
-    if (!t.machine) return nullptr;
-    ExcitedMachine const m = excited(t, d);
-    return {{"is_given", t.machine->exciter.has_value()},
-            {"static_moment_kg_m", m.exciter.static_moment},
-            {"centrifugal_force_n", force_of(m.exciter, d.drive.frequency)},
-            {"trough_mass_kg", t.machine->mass},
-            {"material_kg", m.material},
-            {"added_mass_fraction", t.machine->added_mass.mean},
-            {"added_mass_from", source_of(t.machine->added_mass_source)},
-            {"damping", t.machine->damping ? Json(t.machine->damping->mean) : Json(nullptr)},
-            {"stroke_empty_mm", 2e3 * m.empty},
-            {"resonance_rpm", 60 * resonance_of(*t.machine, m.material)},
-            {"usual_drive_power_w", m.usual_power}};
 }
 
 std::string rules_text(RiskDesign const& d) {

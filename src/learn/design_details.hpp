@@ -25,6 +25,17 @@ std::string exciter_text(DesignTask const& task, RiskDesign const& design);
 /// The same for programs; null where the task says nothing of the machine.
 nlohmann::ordered_json exciter_json(DesignTask const& task, RiskDesign const& design);
 
+/// m, the depth of the layer that carries a mass flow (kg/s) on the machine, by the first model at the median
+/// of the friction: thinner than the design's, which carries it surely.
+double depth_at(DesignTask const& task, RiskDesign const& design, double mass_flow);
+
+/// m, by how much side walls stand above the trough, as usual: half of the layer above it, but 50 mm at
+/// least, in steps of 10 mm. @param depth  m, of the design's layer
+double side_wall(double depth);
+
+/// Of what kind the drive is, for people; empty where no kind was asked for.
+std::string drive_text(DesignTask const& task, RiskDesign const& design);
+
 /// What rules of thumb say of the machine, for people, and why where that differs from the answer by more
 /// than a tenth.
 std::string rules_text(RiskDesign const& design);

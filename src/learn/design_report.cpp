@@ -73,14 +73,39 @@ std::string range_of_friction(KnownFriction const& known) {
     return fmt::format("frictions of {} to {}{}", low, high, cut);
 }
 
+/// Where the workshop's steps of 0.1 mm and half a degree would cost more than half a percent, and finer ones
+/// are printed.
+std::string finer_steps(DesignTask const& t, theory::Drive const& m) {
+    auto const is_off = [](double value, theory::Range const& range, double step) {
+        constexpr double tiny = 1e-6;
+        return range.low < range.high && std::abs(value / step - std::round(value / step)) > tiny;
+    };
+    bool const stroke = is_off(m.amplitude, t.space.amplitude, 5e-5);
+    bool const angle = is_off(m.vibration_angle, t.space.vibration_angle, degree / 2) ||
+                       is_off(m.inclination, t.space.inclination, degree / 2);
+    if (!stroke && !angle) return "";
+    return fmt::format("set it exactly    steps of {} would cost more than half a percent\n",
+                       stroke && angle ? "0.1 mm and half a degree"
+                       : stroke        ? "0.1 mm"
+                                       : "half a degree");
+}
+
 std::string machine_text(DesignTask const& t, RiskDesign const& d) {
     theory::Drive const& m = d.drive;
-    std::string text = fmt::format("stroke            {:.4g} mm (amplitude {:.4g} mm)\n", 2e3 * m.amplitude,
-                                   1e3 * m.amplitude);
+    std::string text = t.material.empty() ? "" : fmt::format("material          {}\n", t.material);
+    text += fmt::format("stroke            {:.4g} mm (amplitude {:.4g} mm)\n", 2e3 * m.amplitude,
+                        1e3 * m.amplitude);
     text += fmt::format("speed of drive    {:.4g} 1/min ({:.4g} Hz)\n", 60 * m.frequency, m.frequency);
     text += fmt::format("vibration angle   {:.4g} degrees\ninclination       {:.4g} degrees\n",
                         m.vibration_angle / degree, m.inclination / degree);
-    text += fmt::format("layer depth       {:.4g} mm\n", 1e3 * d.depth);
+    text += finer_steps(t, m);
+    text += fmt::format("layer depth       {:.4g} mm\n", std::round(1e4 * d.depth) / 10);
+    double const nominal = t.mass_flow / t.surge;
+    text += fmt::format("in operation      {:.0f} mm deep at {} t/h and the most likely speed{}\n",
+                        1e3 * depth_at(t, d, nominal), core::plain_number(tonnes_per_hour * nominal, 4),
+                        t.surge > 1 ? fmt::format("; made for a surge of {:g} times as much", t.surge) : "");
+    text += fmt::format("side walls        {:.0f} mm or higher (half of the layer, or 50 mm, above it)\n",
+                        1e3 * side_wall(d.depth));
     text +=
         fmt::format("throw number      {:.3g}\nmachine number    {:.3g}\n", d.throw_number, d.machine_number);
     text += fmt::format("landing speed     {:.3g} m/s at most, for {} (point mass, mode {})\n",
@@ -91,7 +116,7 @@ std::string machine_text(DesignTask const& t, RiskDesign const& d) {
                         by_atlas ? fmt::format("; {:.3g} +- {:.2g} W by the atlas of layers", by_atlas->value,
                                                by_atlas->half_width)
                                  : "");
-    text += exciter_text(t, d);
+    text += drive_text(t, d) + exciter_text(t, d);
     if (t.length > 0 && d.sure_speed > 0 && !d.untested)
         text += fmt::format("time on trough    {:.3g} s at most, with {:.4g} %\n", t.length / d.sure_speed,
                             100 * t.confidence);
@@ -188,7 +213,10 @@ Json as_json(DesignTask const& t) {
             {"max_throw_number", t.space.max_throw_number},
             {"max_landing_speed_m_per_s", t.landing_speed ? Json(*t.landing_speed) : Json()},
             {"grain_diameter_mm", t.grain_diameter ? Json(1e3 * *t.grain_diameter) : Json()},
-            {"rolling_friction", t.rolling_friction ? Json(*t.rolling_friction) : Json()}};
+            {"rolling_friction", t.rolling_friction ? Json(*t.rolling_friction) : Json()},
+            {"material", t.material},
+            {"surge", t.surge},
+            {"drive", t.drive_kind ? Json(t.drive_kind->name) : Json()}};
 }
 
 }  // namespace
@@ -258,6 +286,8 @@ Json design_json(DesignTask const& t, RiskDesign const& d) {
               {"vibration_angle_deg", m.vibration_angle / degree},
               {"inclination_deg", m.inclination / degree},
               {"layer_depth_mm", 1e3 * d.depth},
+              {"depth_in_operation_mm", 1e3 * depth_at(t, d, t.mass_flow / t.surge)},
+              {"side_wall_mm", 1e3 * side_wall(d.depth)},
               {"throw_number", d.throw_number},
               {"machine_number", d.machine_number},
               {"mode", d.mode},
@@ -275,6 +305,8 @@ Json design_json(DesignTask const& t, RiskDesign const& d) {
               {"sure_speed_m_per_s", if_known(d, d.sure_speed)},
               {"sure_mass_flow_t_per_h", if_known(d, tonnes_per_hour * d.sure_flow)},
               {"untested", d.untested ? Json(*d.untested) : Json(nullptr)},
+              {"time_on_trough_s",
+               t.length > 0 && d.sure_speed > 0 ? if_known(d, t.length / d.sure_speed) : Json(nullptr)},
               {"exciter", exciter_json(t, d)},
               {"objective", name_of(t.objective)},
               {"width_needed_m", d.width_needed ? Json(*d.width_needed) : Json(nullptr)},

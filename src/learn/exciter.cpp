@@ -1,5 +1,6 @@
 #include "learn/exciter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -9,7 +10,8 @@
 namespace vibrotrough::learn {
 namespace {
 
-constexpr double near_resonance = 0.2;  // of its frequency
+constexpr double standard_gravity = 9.81;  // m/s^2
+constexpr double near_resonance = 0.2;     // of its frequency
 
 double squared_omega(double frequency) {
     double const omega = 2 * std::numbers::pi * frequency;
@@ -68,6 +70,46 @@ double amplitude_sd(MovedMachine const& machine, double frequency, double materi
 
 Exciter exciter_needed(MovedMachine const& machine, double frequency, double material, double amplitude) {
     return {amplitude * effective_mass(machine, frequency, material)};
+}
+
+std::optional<ChosenMotors> choose_motors(std::vector<Motor> const& motors, double static_moment,
+                                          double frequency) {
+    constexpr double above_its_own = 1.02, converted = 0.9;
+    double const turns = 60 * frequency;
+    std::optional<Motor> best;
+    for (Motor const& one : motors) {
+        if (turns > above_its_own * one.rpm || 2 * one.static_moment < static_moment) continue;
+        bool const is_better =
+            !best || one.rpm < best->rpm || (one.rpm == best->rpm && one.static_moment < best->static_moment);
+        if (is_better) best = one;
+    }
+    if (!best) return {};
+    return ChosenMotors{*best, static_moment / (2 * best->static_moment), turns < converted * best->rpm};
+}
+
+double sag_of(MovedMachine const& machine, double material) {
+    return (machine.mass + material) * standard_gravity / machine.spring;
+}
+
+double passage_through_resonance(double natural, double frequency, double time) {
+    constexpr double overshoot = 1.17;  // of Cornu's spiral over its end
+    double const acceleration = 2 * std::numbers::pi * frequency / time;
+    return overshoot * std::numbers::pi * natural * std::sqrt(2 * std::numbers::pi / acceleration);
+}
+
+Suspension suspension_of(MovedMachine const& machine, double frequency, double material, double amplitude) {
+    if (machine.spring <= 0) throw std::invalid_argument("the machine has no springs");
+    double const loaded = resonance_of(machine, material), ratio = frequency / loaded;
+    if (ratio <= std::numbers::sqrt2)
+        throw std::invalid_argument(fmt::format(
+            "springs with a natural frequency of {:.3g} Hz isolate nothing at {:.3g} Hz", loaded, frequency));
+    return {sag_of(machine, material),
+            resonance_of(machine, 0),
+            loaded,
+            1 - 1 / (ratio * ratio - 1),
+            machine.spring * amplitude,
+            passage_through_resonance(loaded, frequency, usual_start),
+            passage_through_resonance(loaded, frequency, usual_stop)};
 }
 
 double usual_drive_power(double mass, double amplitude, double frequency) {

@@ -3,6 +3,7 @@
 #include "learn/uncertain.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace vibrotrough::learn {
 
@@ -24,6 +25,27 @@ Exciter exciter_of_force(double force, double frequency);
 /// against each other give it along a line.
 double force_of(Exciter const& exciter, double frequency);
 
+/// An unbalance motor, set to its largest static moment.
+struct Motor {
+    double rpm;            ///< 1/min, synchronous
+    double static_moment;  ///< kg m, of one motor
+    double force;          ///< N, at that speed
+    double power;          ///< W, installed
+};
+
+/// Two motors that turn against each other, and to what of their static moment both are set.
+struct ChosenMotors {
+    Motor motor;
+    double setting;     ///< of the largest static moment, in (0, 1]
+    bool is_converted;  ///< it runs from a frequency converter, well below its own speed
+};
+
+/// The smallest pair of motors with at least a static moment (kg m, of both together): of those of the
+/// slowest speed that is not below the drive's, which may be 2 % above it. Nothing where none is large
+/// enough.
+std::optional<ChosenMotors> choose_motors(std::vector<Motor> const& motors, double static_moment,
+                                          double frequency);
+
 /// Where it is known from which part of the material's mass moves with the trough.
 enum class AddedMassSource {
     maker,  ///< what makers count with
@@ -44,6 +66,7 @@ struct MovedMachine {
     /// then none counts, as makers do. Layers of spheres have 0.18 on average (validation/atlas), see
     /// settle_load().
     std::optional<Uncertain> damping = {};
+    std::vector<Motor> motors = {};  ///< among which a pair is chosen
 
     /// kg, that move with some material on the trough. @param material  kg
     double moving_mass(double material) const { return mass + added_mass.mean * material; }
@@ -65,6 +88,36 @@ Exciter exciter_needed(MovedMachine const& machine, double frequency, double mat
 
 /// Hz, of the resonance of the springs with the moving mass; 0 without springs.
 double resonance_of(MovedMachine const& machine, double material);
+
+/// What the springs of a machine do, as one mass on linear springs that are as stiff vertically as in the
+/// direction of vibration.
+struct Suspension {
+    double sag;            ///< m, under the weight of trough and material: m g / k
+    double empty, loaded;  ///< Hz, natural frequencies
+    double isolation;      ///< part of the force that does not reach the building: 1 - 1 / ((f / f_n)^2 - 1)
+    double force;          ///< N, amplitude of the force on the building: k r
+    double at_start, at_stop;  ///< largest stroke while the resonance is passed, over the working one
+};
+
+/// s, in which motors come to speed, and to rest without a brake: typical, for Suspension.
+inline constexpr double usual_start = 1, usual_stop = 10;
+/// m: steel springs of such machines sag by 10 to 60 mm (natural frequencies of 2 to 5 Hz).
+inline constexpr double largest_sag = 0.1;
+
+/// m, by which springs sag under the weight of the machine and some material. @param spring  > 0
+double sag_of(MovedMachine const& machine, double material);
+
+/// @param material  kg, on the trough @param amplitude  m, of the working stroke
+/// @throws std::invalid_argument without springs, and where the drive is slower than sqrt(2) times the
+///   natural frequency, where springs isolate nothing
+Suspension suspension_of(MovedMachine const& machine, double frequency, double material, double amplitude);
+
+/// The largest amplitude over the working one while a machine without damping, far above its resonance,
+/// passes that resonance: 1.17 (omega_n / 2) sqrt(2 pi / a), with the angular acceleration a of its motors,
+/// which is constant. The resonant part of the integral of Duhamel is one of Fresnel, by which stationary
+/// phase ends at (omega_n / 2) sqrt(2 pi / a) and overshoots by 17 % (after F.M. Lewis, Trans. ASME 54 (1932)
+/// 253-261). @param natural  Hz @param frequency  Hz, that is reached @param time  s, in which it is reached
+double passage_through_resonance(double natural, double frequency, double time);
 
 /// W, that makers of crank drives install for a moved mass: F A omega / sqrt(2), with F the largest
 /// acceleration times the mass. It reproduces the "drive capacity" of ROSTA's example (Oscillating

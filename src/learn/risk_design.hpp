@@ -1,6 +1,7 @@
 #pragma once
 
 #include "learn/exciter.hpp"
+#include "learn/plant.hpp"
 #include "learn/speed_model.hpp"
 
 #include <memory>
@@ -34,13 +35,16 @@ struct DesignTask {
     std::optional<DesignModel> stand_in = {};
     /// Why no model knows the material, without a full stop; then `stand_in` proposes the machine.
     std::optional<std::string> unknown_material = {};
-    KnownFriction friction;           ///< of the material on the trough
-    SettingErrors errors = {};        ///< of what the machine is set to and the material weighs
-    double bulk_density;              ///< kg/m^3, > 0
-    double width;                     ///< m, of the trough, > 0
-    double length = 0;                ///< m, of the trough, for power and time; 0 when it is not known
-    double mass_flow;                 ///< kg/s, that is to be reached, > 0
-    theory::Range depth{0.002, 0.1};  ///< m, of the layer
+    KnownFriction friction;     ///< of the material on the trough
+    SettingErrors errors = {};  ///< of what the machine is set to and the material weighs
+    double bulk_density;        ///< kg/m^3, > 0
+    double width;               ///< m, of the trough, > 0
+    double length = 0;          ///< m, of the trough, for power and time; 0 when it is not known
+    double mass_flow;           ///< kg/s, that is to be reached, > 0, with the surge
+    double surge = 1;           ///< `mass_flow` over the nominal one, >= 1
+    std::string material = {};  ///< its name and the source of its numbers, if it has one
+    std::optional<DriveKind> drive_kind = {};     ///< whose limits the space keeps, if one was asked for
+    theory::Range depth{0.002, 0.1};              ///< m, of the layer
     std::optional<double> grain_diameter = {};    ///< m, if it is known
     std::optional<double> rolling_friction = {};  ///< coefficient of the grains, if it is known
     std::optional<double> grain_friction = {};    ///< coefficient of grain on grain, if it is known

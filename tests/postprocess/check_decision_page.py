@@ -38,7 +38,12 @@ def design():
         "mass_flow_wanted_t_per_h": 12.0, "confidence": 0.95, "probability": 0.962, "sure_speed_m_per_s": 0.19,
         "untested": None, "objective": "least-machine-number", "models": [forecast("the point mass", 0.24), forecast("the rolling-layer law", 0.29)],
         "models_beside": [forecast("the atlas", 0.3) | {"probability": None, "sure_speed_m_per_s": None, "mass_flow_quantiles_t_per_h": []}],
-        "exciter": {"static_moment_kg_m": 0.84, "centrifugal_force_n": 5074.0, "stroke_empty_mm": 12.9},
+        "exciter": {"static_moment_kg_m": 0.84, "centrifugal_force_n": 5074.0, "stroke_empty_mm": 12.9, "trough_mass_kg": 180.0,
+                    "moving_mass_kg": 193.0, "material_kg": 41.8, "added_mass_fraction": 0.3,
+                    "motors": {"text": "2 x 8 kN at 58 %", "rpm": 1000.0, "static_moment_kg_m": 0.73, "power_w": 560.0, "setting": 0.58, "frequency_converter": True},
+                    "springs": {"sag_mm": 21.7, "natural_frequency_empty_hz": 3.8, "natural_frequency_loaded_hz": 3.6, "isolation": 0.91,
+                                "force_on_building_n": 620.0, "stroke_ratio_at_start": 3.7, "stroke_ratio_at_stop": 11.8}},
+        "depth_in_operation_mm": 28.0, "side_wall_mm": 90.0, "time_on_trough_s": 15.8, "project": "Mill 3", "revision": "B",
         "active_limits": ["layer depth <= 40 mm", "landing speed <= 0.3 m/s"],
         "rules_of_thumb": [
             {"rule": "v = 3.81 N S, of which 70 to 80 % are used in practice", "source": "Daesung Machinery", "speed_m_per_s": 0.292,
@@ -48,7 +53,8 @@ def design():
         "warnings": [f"If the grains can roll, the theory alone is wrong here. {PLANTED}"],
         "task": {"width_m": 0.3, "length_m": 3.0, "bulk_density_kg_per_m3": 600.0, "depth_m": [0.005, 0.04], "rpm": [200.0, 1500.0],
                  "stroke_mm": [2.0, 14.0], "vibration_angle_deg": [20.0, 40.0], "inclination_deg": [0.0, 0.0], "max_machine_number": 4.0,
-                 "max_throw_number": 3.29, "max_landing_speed_m_per_s": 0.3},
+                 "max_throw_number": 3.29, "max_landing_speed_m_per_s": 0.3, "grain_diameter_mm": 3.5, "rolling_friction": 0.1,
+                 "material": "maize (EN 1991-4; size typical)", "surge": 1.3, "drive": "unbalance motors"},
         "quantile_shares": list(np.arange(1, 40) / 40)}
 
 
@@ -137,7 +143,8 @@ def main(scripts, work):
     work = pathlib.Path(work).resolve() / "decision_page"
     work.mkdir(parents=True, exist_ok=True)
     pages = {}
-    for data, expected in ((design(), ["12.4 mm", "742 1/min", "31.5\u00b0", "38.7 mm", "landing speed \u2264 0.3 m/s", "allowed 20 to 40\u00b0", "fixed", "96.2 %", "Daesung", "840 kg mm", "5.07 kN; 12.9 mm when empty",
+    for data, expected in ((design(), ["12.4 mm", "742 1/min", "31.5\u00b0", "38.7 mm", "landing speed \u2264 0.3 m/s", "allowed 20 to 40\u00b0", "fixed", "96.2 %", "Daesung", "840 kg mm", "5.07 kN; stroke 12.9 mm when empty", "2 x 8 kN at 58 %", "sag 22 mm", "620 N", "193 kg", "15.8 s",
+                                    "Mill 3", "revision B", "3.5 mm", "surge of 1.3 times 9.231 t/h",
                                     "the atlas (for comparison)0.3not known18not knownnot known"]),
                            (deep_design(), ["Not tested: no probability is known.", "the point mass0.24not known14.4not knownnot known"]),
                            (calibration(), ["0.45", "0.39 to 0.51 (95 %)", "R-hat up to 1.002", "0.0601 \u00b1 0.003"])):

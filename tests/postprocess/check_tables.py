@@ -44,6 +44,16 @@ def check_partition():
     assert "d50 3 mm" in [text.get_text() for text in axes.get_legend().get_texts()]
 
 
+def check_screening():
+    """Efficiency over the length of screen: the end of each cycle, with its interval."""
+    result = {"screening/distance": np.array([0, 0.2, 0.4]), "screening/efficiency": np.array([0, 0.6, 0.8]), "screening/efficiency_half_width": np.array([0, 0.1, np.nan])}
+    axes = drawn(figure_tables.plot_screening, result)
+    assert list(axes.lines[0].get_xdata()) == [0, 0.2, 0.4] and list(axes.lines[0].get_ydata()) == [0, 0.6, 0.8]
+    assert axes.get_xlabel() == "length of the screen  [m]"
+    nothing = {**result, "screening/efficiency": np.full(3, np.nan)}
+    assert drawn(figure_tables.plot_screening, nothing) is None
+
+
 def check_partition_through_the_opening():
     """d50 lies on the lines between the sizes; one through the opening, of which all spheres stay: 2 mm + (0.5 - 0.2) / (1 - 0.2) * (3 mm - 2 mm)."""
     result = {"partition/diameter": np.array([0.002, 0.004]), "partition/relative_diameter": np.array([2 / 3, 4 / 3]), "partition/stays_by_model": np.array([0.4, 1]),
@@ -164,6 +174,7 @@ def check_speed_over_stages():
 
 
 check_partition()
+check_screening()
 check_partition_through_the_opening()
 check_cycles_are_seen()
 check_stages()
@@ -172,7 +183,7 @@ check_materials_along()
 check_along()
 check_residence()
 check_speed_over_stages()
-for plot in (figure_tables.plot_partition, figure_tables.plot_segregation, figure_tables.plot_along, figure_tables.plot_residence, figure_tables.plot_stages):
+for plot in (figure_tables.plot_screening, figure_tables.plot_partition, figure_tables.plot_segregation, figure_tables.plot_along, figure_tables.plot_residence, figure_tables.plot_stages):
     assert drawn(plot, {}) is None
 # What is drawn is in the report.
 assert sorted(figures.KINDS) == sorted(kind for kind, _ in report.FIGURES + report.CASE_FIGURES)

@@ -17,7 +17,7 @@ namespace {
 
 struct DesignArguments {
     DesignOptions task;
-    std::string campaign, page, python;
+    std::string campaign, page, python, project, revision;
     bool json = false, verify = false;
     Outputs outputs;
     Text budget;
@@ -38,6 +38,9 @@ learn::DesignTask read_task(DesignArguments const& options) {
             "--rolling-friction: the point mass does not know it; write --model rolling-layer, --verify or "
             "--campaign as well, or leave it out");
     if (!options.verify) return task;
+    if (auto const& why = options.task.material.why_unknown())
+        throw core::InputError(
+            fmt::format("--verify: its layers are of dry spheres of one size, and {}", *why));
     if (task.machine && task.machine->exciter)
         throw core::InputError(
             "--verify: proposes machines with other strokes than the exciter gives; leave --exciter out and "
@@ -109,6 +112,7 @@ void write_campaign(DesignArguments const& options, learn::DesignTask const& tas
 int run_design(DesignArguments options) {
     if (options.task.posterior) options.outputs.inputs.emplace_back(*options.task.posterior);
     if (!options.page.empty()) options.outputs.check("--page", options.page, page_mark);
+    options.task.take_material();
     VerifiedDesign found = find_design(options, read_task(options));
     if (found.is_interrupted) return interrupted;
     settle_load(found.task, found.design);
@@ -117,6 +121,8 @@ int run_design(DesignArguments options) {
     if (!options.campaign.empty()) write_campaign(options, task, design);
     if (!options.page.empty()) {
         auto data = learn::design_page_data(task, design);
+        data["project"] = options.project;
+        data["revision"] = options.revision;
         if (options.verify) data["verification"] = learn::verification_sentence(task, found.verification);
         write_decision_page(data, "design", options.page, options.python);
     }
@@ -224,6 +230,8 @@ void add_design(CLI::App& program, int& exit_code) {
              "Write the campaign that checks the design with grains into this file", "FILE");
     add_text(*command, "--page", options->page,
              "Write a page of one screen about the design into this HTML file", "FILE");
+    add_text(*command, "--project", options->project, "Name of the project on this page", "TEXT");
+    add_text(*command, "--revision", options->revision, "Its revision, for example \"B\"", "TEXT");
     options->outputs.add_to(*command);
     add_python(*command, options->python);
     add_verification(*command, *options);

@@ -107,6 +107,7 @@ void DesignOptions::add_material(CLI::App& command) {
         command,
         {{"--bulk-density", ", such as \"600 kg/m3\", \"600+-30 kg/m3\" or \"550 to 650 kg/m3\"",
           "Of the material"},
+         {"--surge"},
          {"--width", ", for example \"300 mm\"", "Of the trough"},
          {"--length"},
          {"--layer-depth"},
@@ -123,11 +124,24 @@ void DesignOptions::add_material(CLI::App& command) {
           "Friction between the grains, for the atlas, written like --friction; default: not known, anything "
           "between 0.3 and 0.8"}},
         group);
+    material.add_to(command, group);
     command
         .add_option("--posterior", posterior,
                     "In place of the friction: the file that 'vibrotrough theory calibrate --posterior FILE' "
                     "wrote, or what its --json printed")
         ->group(group);
+}
+
+/// The limits of a kind of drive, where no others are asked for.
+void DesignOptions::keep_to_drive(learn::DesignTask& task) const {
+    auto const kind = exciter.drive();
+    if (!kind) return;
+    task.drive_kind = *kind;
+    if (!drive.stroke && !drive.amplitude)
+        task.space.amplitude = {kind->stroke.low / 2, kind->stroke.high / 2};
+    if (!drive.rpm && !drive.frequency && !drive.poles)
+        task.space.frequency = {kind->rpm.low / 60, kind->rpm.high / 60};
+    if (!drive.machine_number) task.space.max_machine_number = kind->machine_number;
 }
 
 void DesignOptions::add_limits(CLI::App& command) {
@@ -247,6 +261,7 @@ learn::DesignTask DesignOptions::task() const {
     task.space = read.space;
     task.frequencies = read.frequencies;
     task.amplitudes = read.amplitudes;
+    keep_to_drive(task);
     task.tells_amplitude = drive.amplitude.has_value();
     task.tells_frequency = drive.frequency.has_value();
     std::string const flow = required("--mass-flow", mass_flow, "\"12 t/h\"");
@@ -256,6 +271,9 @@ learn::DesignTask DesignOptions::task() const {
     task.bulk_density = density.mean;
     task.errors = read_errors(*this, density.sd);
     task.mass_flow = read_mass_flow("--mass-flow", flow, task.bulk_density);
+    task.surge = quantities.value("--surge").value_or(1);
+    task.mass_flow *= task.surge;
+    task.material = material.told();
     task.width = *quantities.value("--width");
     task.length = quantities.value("--length").value_or(task.length);
     task.machine = exciter.machine();
@@ -280,6 +298,10 @@ learn::DesignTask DesignOptions::task() const {
         choose_models(task);
     else
         task.models = read_models(task.friction);
+    if (auto const& why = material.why_unknown()) {
+        task.unknown_material = *why;
+        task.stand_in = task.models.front();
+    }
     task.objective = objectives.at(objective);
     // What a calibration says of a model's error holds for the model that was calibrated.
     if (!task.friction.discrepancies.empty() && !quantities.has("--model-discrepancy")) {

@@ -2,6 +2,7 @@
 
 #include "app/commands/option_table.hpp"
 #include "learn/exciter.hpp"
+#include "learn/plant.hpp"
 
 #include <optional>
 
@@ -17,10 +18,12 @@ class ExciterOptions {
     std::optional<learn::MovedMachine> machine() const;
     /// The text of --exciter.
     Text const& exciter() const { return exciter_; }
+    /// The kind of drive that was asked for, or that unbalance motors are; nothing: any.
+    std::optional<learn::DriveKind> drive() const;
 
   private:
     QuantityOptions quantities_;
-    Text exciter_;
+    Text exciter_, motors_, drive_;
 };
 
 }  // namespace vibrotrough::app

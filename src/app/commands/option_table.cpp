@@ -117,6 +117,10 @@ std::vector<OptionRow> rows_of_designs() {
          "Part of the material's mass that moves with the trough, from added_mass_fraction of a campaign or "
          "written like --friction; default: that of the atlas' layers, else \"0.10 to 0.25\" "
          "(NetterVibration)"},
+        {"--surge", "", 1, 5, "1.3",
+         "Factor by which the feed may exceed the mass flow for a while; the trough is made for both "
+         "together, "
+         "default: 1"},
         {"--mains", "Hz", 1, 400, "50 Hz",
          "f, frequency of the mains for --poles, in Hz: 50, or 60 as in America"},
         {"--slip", "", 0, 0.3, "0.03",
@@ -179,6 +183,18 @@ void QuantityOptions::add_to(CLI::App& command, std::initializer_list<Wanted> wa
         CLI::Option* const option = command.add_option(one.name, texts_[one.name], meaning + one.more);
         if (!group.empty()) option->group(group);
     }
+}
+
+bool QuantityOptions::is_any() const {
+    return std::ranges::any_of(texts_, [](auto const& one) { return one.second.has_value(); });
+}
+
+void QuantityOptions::set(std::string const& name, std::string const& text) {
+    texts_.at(name) = text;
+}
+
+void QuantityOptions::set_if_missing(std::string const& name, std::string const& text) {
+    if (!has(name)) set(name, text);
 }
 
 std::optional<double> QuantityOptions::value(std::string const& name) const {

@@ -70,8 +70,13 @@ class QuantityOptions {
     void add_to(CLI::App& command, std::initializer_list<Wanted> wanted, std::string const& group = "");
     /// What the user wrote for an option that was declared.
     Text const& text(std::string const& name) const { return texts_.at(name); }
+    /// Whether any was given.
+    bool is_any() const;
     /// Whether it was given.
     bool has(std::string const& name) const { return texts_.at(name).has_value(); }
+    /// Puts a text in place of what the user wrote, or of what was not given, where the option is declared.
+    void set(std::string const& name, std::string const& text);
+    void set_if_missing(std::string const& name, std::string const& text);
     /// Its value in the SI unit; none when it was not given. @throws core::InputError as read_option
     std::optional<double> value(std::string const& name) const;
     /// The same of an option that must be given. @throws core::InputError when it is missing

@@ -187,6 +187,7 @@ constexpr char const* plot_help = R"(Kinds of figures:
   portraits   for each case: layer and point mass in phase space
   spin        for each case: spin and slip of the floor grains, and friction, over the cycle
   profiles    for each case: velocity over height
+  screening   for each batch on a screen: the efficiency over the length of the screen
   partition   for each case with a screen: the share of each size that stays
   segregation for each mixture: its segregation index over time, or along an open trough
   along       for each open trough: depth and speed along it
@@ -216,10 +217,10 @@ void add_plot(CLI::App& program, int& exit_code) {
     command
         ->add_option("--only", options->only, "Draw only this kind of figure; repeat the option for several")
         // The kinds are named below, with what each shows.
-        ->check(
-            CLI::IsMember({"efficiency", "speed", "mass_flow", "residuals", "budget", "cycles", "portraits",
-                           "spin", "profiles", "partition", "segregation", "along", "residence", "stages"})
-                .description(""))
+        ->check(CLI::IsMember({"efficiency", "speed", "mass_flow", "residuals", "budget", "cycles",
+                               "portraits", "spin", "profiles", "screening", "partition", "segregation",
+                               "along", "residence", "stages"})
+                    .description(""))
         ->type_name("KIND")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -1,5 +1,5 @@
 #include "app/commands/command.hpp"
-#include "app/commands/predict_layers.hpp"
+#include "app/commands/predict_machine.hpp"
 #include "app/learning.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/outcome.hpp"
@@ -15,7 +15,12 @@ namespace {
 struct PredictArguments {
     std::string folder;
     std::vector<std::string> places;
+    MachineOptions machine;
     bool json = false, csv = false, without_theory = false;
+
+    PredictionFormat format() const {
+        return json ? PredictionFormat::json : csv ? PredictionFormat::csv : PredictionFormat::text;
+    }
 };
 
 /// The settings of "a=1,b=2".
@@ -190,15 +195,7 @@ void print_text(Prediction const& p) {
     if (!p.remark.empty()) fmt::print("{}\n", p.remark);
 }
 
-void run_predict(PredictArguments const& options) {
-    if (options.places.empty()) {
-        std::filesystem::path const given(options.folder);
-        predict_layers(std::filesystem::is_directory(given) ? given / "campaign.toml" : given,
-                       options.json  ? PredictionFormat::json
-                       : options.csv ? PredictionFormat::csv
-                                     : PredictionFormat::text);
-        return;
-    }
+void predict_places(PredictArguments const& options) {
     Predictor predictor(options);
     std::vector<Prediction> predictions;
     for (std::string const& place : options.places) predictions.push_back(predictor.at(place));
@@ -215,17 +212,38 @@ void run_predict(PredictArguments const& options) {
     }
 }
 
+int run_predict(PredictArguments options) {
+    if (options.folder.empty() == !options.machine.is_any())
+        throw core::InputError(
+            "predict needs either a campaign or a machine: write for example vibrotrough predict "
+            "campaign.toml, "
+            "or vibrotrough predict --rpm 960 --stroke \"8 mm\" --vibration-angle \"30 deg\" --friction 0.3");
+    if (options.machine.is_any()) {
+        if (!options.places.empty())
+            throw core::InputError(
+                "--at: belongs to a campaign with results; write its folder, or leave it out");
+        return options.machine.predict(options.format()) ? all_well : some_cases_failed;
+    }
+    std::filesystem::path const given(options.folder);
+    if (options.places.empty())
+        predict_layers(std::filesystem::is_directory(given) ? given / "campaign.toml" : given,
+                       options.format());
+    else
+        predict_places(options);
+    return all_well;
+}
+
 }  // namespace
 
 void add_predict(CLI::App& program, int& exit_code) {
-    CLI::App* const command =
-        program.add_subcommand("predict", "Predict the velocity efficiency of layers, simulated or not");
+    CLI::App* const command = program.add_subcommand(
+        "predict", "Predict speed and mass flow of a machine, or the efficiency of a campaign's layers");
     auto const options = std::make_shared<PredictArguments>();
-    command
-        ->add_option("CAMPAIGN", options->folder,
-                     "Campaign file or folder of a campaign: its cases, from the atlas of simulated layers; "
-                     "with --at the folder of a campaign with results")
-        ->required();
+    command->add_option(
+        "CAMPAIGN", options->folder,
+        "Campaign file or folder of a campaign: its cases, from the atlas of simulated layers; "
+        "with --at the folder of a campaign with results");
+    options->machine.add_to(*command);
     add_repeated(*command, "--at", options->places,
                  "A place between the cases of the campaign, from their results: values of all keys that it "
                  "varies; repeat the option for several places",
@@ -236,7 +254,12 @@ void add_predict(CLI::App& program, int& exit_code) {
     command->add_flag("--without-theory", options->without_theory,
                       "Leave atlas and theory out of the surface, to see how much they help");
     command->footer(
-        R"(Without --at: what the atlas says of each case of the campaign, before anything is simulated. The atlas is a
+        R"(With a machine: its conveying speed and mass flow, with 95 % intervals, from the atlas of simulated layers, the most
+frequent motion (mode), the point mass beside it, and why the two differ. Of grains that do not roll (a rolling friction
+of 0.5 or more) the point mass decides. What is not given is in the middle of what was simulated, and the interval holds
+what it may change. The exit code is 1 where no model knows the layer.
+
+With a campaign, without --at: what the atlas says of each case of the campaign, before anything is simulated. The atlas is a
 surface over layers of spheres that were simulated once for all (validation/atlas). It prints the velocity efficiency
 with the half-width of its 95 % interval, the speed, the point mass beside it, the mean power that the trough gives to
 the layer, the share of the layer's mass that moves with the trough, and the most frequent motion (mode) among the five
@@ -262,12 +285,12 @@ A key may be written without its section where no other varied key has the same 
 campaign file; bare numbers are SI.
 
 Examples:
+  vibrotrough predict --rpm 1000 --stroke "8 mm" --vibration-angle "25 deg" --friction 0.3
+  vibrotrough predict --rpm 960 --stroke "8 mm" --vibration-angle "30 deg" --friction 0.3+-0.03 \
+      --width "400 mm" --layer-depth "40 mm" --bulk-density "600 kg/m3" --grain-diameter "4 mm"
   vibrotrough predict campaign.toml
   vibrotrough predict runs/demo --at throw_number=1.9)");
-    command->callback([options, &exit_code] {
-        run_predict(*options);
-        exit_code = all_well;
-    });
+    command->callback([options, &exit_code] { exit_code = run_predict(*options); });
 }
 
 }  // namespace vibrotrough::app

@@ -1,3 +1,4 @@
+#include "scenario/model/softness.hpp"
 #include "scenario/reader/given_values.hpp"
 
 #include <array>
@@ -147,9 +148,15 @@ void check_pairs(Scenario const& scenario, GivenKeys const& given) {
         if (!has(pair.one) || has(pair.other)) continue;
         Key const& missing = *find_key(pair.other.key);
         std::string_view const key = key_of(pair.one, given);
+        // The example of the key would be too soft for most layers.
+        std::string const instead = missing.path == "grains.youngs_modulus"
+                                        ? fmt::format(
+                                              "write for example youngs_modulus = \"{:g} MPa\", which is "
+                                              "stiff enough for this layer,",
+                                              stiff_enough(scenario, scenario.solver.softness) / 1e6)
+                                        : write_instead(missing);
         given.fail(key, fmt::format("needs {}: {}", missing.path, pair.reason),
-                   fmt::format("{} under [{}], or remove {}", write_instead(missing), section_of(missing),
-                               last_name(key)));
+                   fmt::format("{} under [{}], or remove {}", instead, section_of(missing), last_name(key)));
     }
 }
 
