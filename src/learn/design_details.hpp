@@ -33,7 +33,7 @@ double depth_at(DesignTask const& task, RiskDesign const& design, double mass_fl
 /// least, in steps of 10 mm. @param depth  m, of the design's layer
 double side_wall(double depth);
 
-/// Of what kind the drive is, for people; empty where no kind was asked for.
+/// Which usual kind of drive builds the machine, for people; empty where no kinds are known.
 std::string drive_text(DesignTask const& task, RiskDesign const& design);
 
 /// What rules of thumb say of the machine, for people, and why where that differs from the answer by more

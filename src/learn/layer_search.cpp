@@ -116,9 +116,12 @@ bool are_apart(Point const& a, Point const& b) {
 std::vector<Point> best_of_sample(LayerSpace const& space, LayerGoal const& goal) {
     std::vector<FoundLayer> all;
     for (Point const& point : space.sample()) {
-        Climb look(space, goal);
-        look.look_at(point);
-        if (look.best()) all.push_back(*look.best());
+        auto const layer = space.at(point);
+        // Limits cost less than the merit, which may ask a model.
+        if (!layer || !std::ranges::all_of(goal.excesses, [&](auto const& one) { return one(*layer) <= 0; }))
+            continue;
+        double const merit = goal.merit(*layer);
+        if (std::isfinite(merit)) all.push_back({point, *layer, merit});
     }
     std::ranges::stable_sort(all, std::greater(), &FoundLayer::merit);
     std::vector<Point> chosen;

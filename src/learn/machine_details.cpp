@@ -195,12 +195,16 @@ double side_wall(double depth) {
 }
 
 std::string drive_text(DesignTask const& t, RiskDesign const& d) {
-    if (!t.drive_kind) return "";
-    return fmt::format(
-        "kind of drive     {}: stroke {:g} to {:g} mm, {:g} to {:g} 1/min, K up to {:g} ({})\n",
-        t.drive_kind->name, 1e3 * t.drive_kind->stroke.low, 1e3 * t.drive_kind->stroke.high,
-        t.drive_kind->rpm.low, t.drive_kind->rpm.high, t.drive_kind->machine_number,
-        t.drive_kind->builds(d.drive) ? "usual limits" : "usual limits, which this drive exceeds");
+    std::string usual;
+    for (DriveKind const& one : t.drive_kinds)
+        if (one.builds(d.drive)) usual += (usual.empty() ? "" : " or ") + one.name;
+    if (t.drive_kind) usual = t.drive_kind->builds(d.drive) ? t.drive_kind->name : "";
+    std::string const others =
+        t.drive_kind
+            ? "the usual limits of " + t.drive_kind->name
+            : "the usual limits of unbalance motors, cranks and magnets; --drive keeps to those of one";
+    if (!t.drive_kind && t.drive_kinds.empty()) return "";
+    return fmt::format("kind of drive     {}\n", usual.empty() ? "outside of " + others : usual);
 }
 
 }  // namespace vibrotrough::learn

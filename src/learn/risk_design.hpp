@@ -43,6 +43,7 @@ struct DesignTask {
     double mass_flow;           ///< kg/s, that is to be reached, > 0, with the surge
     double surge = 1;           ///< `mass_flow` over the nominal one, >= 1
     std::string material = {};  ///< its name and the source of its numbers, if it has one
+    std::vector<DriveKind> drive_kinds = {};      ///< that are usual, to say which of them builds the machine
     std::optional<DriveKind> drive_kind = {};     ///< whose limits the space keeps, if one was asked for
     theory::Range depth{0.002, 0.1};              ///< m, of the layer
     std::optional<double> grain_diameter = {};    ///< m, if it is known

@@ -191,11 +191,16 @@ double RiskSearch::sure_flow(DesignLayer const& layer) const {
 
 /// m/s, the sure speed as the search expects it, by the few parts of the friction.
 double RiskSearch::expected_speed(DesignLayer const& layer, Precision precision) const {
-    double least = infinity;
-    for (DesignModel const& model : task_.models)
-        least =
-            std::min(least, speeds_by(task_, model, layer, few_, precision).exceeded_with(task_.confidence));
-    return correction_ * least;
+    auto const& [frequency, amplitude, angle, inclination] = layer.drive;
+    auto& known = known_speeds_[precision == Precision::near ? 0 : 1];
+    auto const [found, is_new] =
+        known.try_emplace({frequency, amplitude, angle, inclination, layer.depth}, infinity);
+    if (is_new)
+        for (DesignModel const& model : task_.models)
+            found->second =
+                std::min(found->second,
+                         speeds_by(task_, model, layer, few_, precision).exceeded_with(task_.confidence));
+    return correction_ * found->second;
 }
 
 bool RiskSearch::is_looked_at(DesignLayer const& layer) const {

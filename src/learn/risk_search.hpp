@@ -4,7 +4,9 @@
 #include "learn/risk_design.hpp"
 #include "learn/way_out.hpp"
 
+#include <array>
 #include <functional>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -94,8 +96,11 @@ class RiskSearch {
     Layers layers_;
     AllowedLayers allowed_;
     LayerSpace space_;
-    std::vector<FrictionPart> few_, many_;   ///< of the friction
-    double correction_ = 1;                  ///< of the sure speed by the few
+    std::vector<FrictionPart> few_, many_;  ///< of the friction
+    double correction_ = 1;                 ///< of the sure speed by the few
+    /// m/s, what the few say of the layers that were looked at, near and exact: each goal and each exchange
+    /// begins with the same sample.
+    mutable std::array<std::map<std::array<double, 5>, double>, 2> known_speeds_ = {};
     std::vector<double> landing_frictions_;  ///< at which the search keeps the landing speed
     double aim_ = 1;  ///< of the landing speed, relative to its limit; lowered when a friction repeats
 };

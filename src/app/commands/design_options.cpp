@@ -134,6 +134,7 @@ void DesignOptions::add_material(CLI::App& command) {
 
 /// The limits of a kind of drive, where no others are asked for.
 void DesignOptions::keep_to_drive(learn::DesignTask& task) const {
+    task.drive_kinds = ExciterOptions::drive_kinds();
     auto const kind = exciter.drive();
     if (!kind) return;
     task.drive_kind = *kind;

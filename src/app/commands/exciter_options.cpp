@@ -11,11 +11,6 @@ constexpr char const* ways =
     "write \"static 840 kg mm\" (unbalanced mass times its radius, as Italvibras), \"working 168 kg cm\" "
     "(twice as much, as NetterVibration), \"8.5 kN at 960 rpm\" or \"2 x 8 kN at 960 rpm\"";
 
-std::vector<learn::DriveKind> const& drive_kinds() {
-    static auto const kinds = learn::read_drives(plant_table("drives.csv"), "drives.csv");
-    return kinds;
-}
-
 /// How many motors "2 x 8 kN at 960 rpm" names; the rest of the text without them.
 int take_count(std::string& text) {
     auto const times = text.find(" x ");
@@ -60,6 +55,11 @@ void check_sag(learn::MovedMachine const& machine, std::string const& spring) {
 }
 
 }  // namespace
+
+std::vector<learn::DriveKind> const& ExciterOptions::drive_kinds() {
+    static auto const kinds = learn::read_drives(plant_table("drives.csv"), "drives.csv");
+    return kinds;
+}
 
 void ExciterOptions::add_to(CLI::App& command) {
     std::string const group = "What moves the trough";

@@ -20,6 +20,8 @@ class ExciterOptions {
     Text const& exciter() const { return exciter_; }
     /// The kind of drive that was asked for, or that unbalance motors are; nothing: any.
     std::optional<learn::DriveKind> drive() const;
+    /// The kinds of drives that are usual.
+    static std::vector<learn::DriveKind> const& drive_kinds();
 
   private:
     QuantityOptions quantities_;

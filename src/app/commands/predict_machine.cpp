@@ -144,14 +144,16 @@ void MachineOptions::add_to(CLI::App& command) {
                         {"--width", "", "Of the trough, for the mass flow"},
                         {"--layer-depth", "", "Of the layer; default: not known"}},
                        machine);
+    std::string const its_material = "Its material";
     quantities_.add_to(
         command,
         {{"--friction", ": 0.3, 0.3+-0.03, or \"0.25 to 0.35\""},
          {"--bulk-density", "", "Of the material, for the mass flow"},
-         {"--grain-diameter", "", "Of the grains; default: not known"},
+         {"--grain-diameter", "", "Of the grains, or of a mix \"0 to 30 mm\"; default: not known"},
          {"--rolling-friction", "", "Of the grains, written like --friction; default: not known"},
          {"--grain-friction", "", "Between the grains, written like --friction; default: not known"}},
-        "Its material");
+        its_material);
+    material_.add_to(command, its_material);
 }
 
 bool MachineOptions::is_any() const {

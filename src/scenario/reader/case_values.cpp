@@ -84,6 +84,7 @@ Scenario make_scenario(CaseValues const& values, std::string const& file, FileSo
     complete_layer(scenario, given);
     if (scenario.layer.block != Block::none) complete_block(scenario, given);
     check_frames(scenario, given);
+    check_cohesion(scenario, given);
     return scenario;
 }
 

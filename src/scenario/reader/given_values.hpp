@@ -91,6 +91,10 @@ inline constexpr std::string_view waveform_advice =
 /// @throws core::InputError
 void check_pairs(Scenario const& scenario, GivenKeys const& given);
 
+/// A cohesion needs a modulus: of a complete scenario, because the message names one that is stiff enough.
+/// @throws core::InputError without one
+void check_cohesion(Scenario const& scenario, GivenKeys const& given);
+
 /// Works out what follows from several keys of the trough, and checks that they go together.
 /// @param scenario  all keys are set
 /// @throws core::InputError

@@ -115,9 +115,6 @@ constexpr std::array needed{
     Pair{{"grains.mass_fractions"}, {"grains.diameters"}, "they are the shares of listed diameters"},
     Pair{rolling, rolling_friction, "grains that roll against a friction have one above 0"},
     Pair{rolling_friction, {"grains.rotation"}, "it has no effect on grains that rotate freely"},
-    Pair{cohesion,
-         {"grains.youngs_modulus"},
-         "the pull that the cohesion means depends on the modulus, so that it cannot be chosen"},
     Pair{{"output.frame_packings"}, frames, "there are no frames"},
     Pair{contacts, frames, "there are no frames"},
 };
@@ -148,16 +145,21 @@ void check_pairs(Scenario const& scenario, GivenKeys const& given) {
         if (!has(pair.one) || has(pair.other)) continue;
         Key const& missing = *find_key(pair.other.key);
         std::string_view const key = key_of(pair.one, given);
-        // The example of the key would be too soft for most layers.
-        std::string const instead = missing.path == "grains.youngs_modulus"
-                                        ? fmt::format(
-                                              "write for example youngs_modulus = \"{:g} MPa\", which is "
-                                              "stiff enough for this layer,",
-                                              stiff_enough(scenario, scenario.solver.softness) / 1e6)
-                                        : write_instead(missing);
         given.fail(key, fmt::format("needs {}: {}", missing.path, pair.reason),
-                   fmt::format("{} under [{}], or remove {}", instead, section_of(missing), last_name(key)));
+                   fmt::format("{} under [{}], or remove {}", write_instead(missing), section_of(missing),
+                               last_name(key)));
     }
+}
+
+void check_cohesion(Scenario const& scenario, GivenKeys const& given) {
+    if (scenario.engine.cohesion <= 0 || scenario.grains.youngs_modulus) return;
+    given.fail(
+        "engine.cohesion",
+        "needs grains.youngs_modulus: the pull that the cohesion means depends on the modulus, so that it "
+        "cannot be chosen",
+        fmt::format("write for example youngs_modulus = \"{:g} MPa\" under [grains], which is stiff enough "
+                    "for this layer, or remove cohesion",
+                    stiff_enough(scenario, scenario.solver.softness) / 1e6));
 }
 
 }  // namespace vibrotrough::scenario
