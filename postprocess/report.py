@@ -135,7 +135,7 @@ WHAT_A_MACHINE_DOES = ("conveying_speed_m_per_s", "mass_flow_t_per_h", "mass_flo
 
 
 # What only some readers look for: shown at the push of a button, so that the rest fits on a screen.
-MINOR = ("efficiency_half_width_statistics", "efficiency_numerics", "numerical_error_case", "larger_error", "mass_flow_per_width_t_per_h_m",
+MINOR = ("efficiency_half_width_statistics", "efficiency_numerics", "numerics_source", "larger_error", "mass_flow_per_width_t_per_h_m",
          "power_per_area_w_per_m2", "added_mass_fraction", "damping_per_area_n_s_per_m3", "cycles_discarded", "wall_time_s")
 
 def report_columns(overview: dict[str, Any]) -> list[Column]:

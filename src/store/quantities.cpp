@@ -117,13 +117,16 @@ std::vector<Quantity> efficiency_quantities() {
          Real([](Case c) { return c.numerical_error(); }),
          nothing,
          {{.format = "{:.3f}", .report = ReportView{"\u00b1 numerical"}}}},
-        {"numerical_error_case",
+        {"numerics_source",
          "1",
-         "Case that efficiency_numerics was measured at: this one, or the nearest that was studied; "
-         "empty for a bound",
-         Text([](Case c) { return c.studied ? c.studied->case_id : std::string(); }),
+         "Where efficiency_numerics is from: convergence, when that command studied the case, or expected, "
+         "by what other layers showed; empty without it",
+         Text([](Case c) -> std::string {
+             if (!c.numerical_error()) return "";
+             return c.studied_error ? "convergence" : "expected";
+         }),
          nothing,
-         {{.report = ReportView{"numerical error of case"}}}},
+         {{.report = ReportView{"numerical error by"}}}},
         {"efficiency_by_normal_force",
          "1",
          "Velocity efficiency of a point mass with Coulomb friction under the layer's own normal force; NaN "
