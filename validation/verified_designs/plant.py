@@ -1,6 +1,7 @@
 """Twenty machines as plants ask for them: coarse and fine material, slopes, small strokes, fast motors, frictions that nobody knows."""
 
 import json
+import math
 import pathlib
 import subprocess
 import time
@@ -49,6 +50,12 @@ def task(number: int) -> dict[str, Any]:
     if kind == "small stroke":
         options |= {"--stroke": f"1 mm to {random.uniform(2, 4):.1f} mm", "--rpm": "1450"}
     return options
+
+
+def least_held(count: int) -> int:
+    """The least number of 95 % intervals, of `count`, that a binomial count falls below with less than 2.5 %."""
+    shares = [math.comb(count, number) * 0.95**number * 0.05 ** (count - number) for number in range(count + 1)]
+    return next(number for number in range(count + 1) if sum(shares[: number + 1]) >= 0.025)
 
 
 def design(program: str, options: dict[str, Any], flow: float, *words: str) -> tuple[Any, float]:
