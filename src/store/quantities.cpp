@@ -299,7 +299,7 @@ std::vector<Quantity> grain_and_layer_quantities() {
          Real([](Case c) { return c.scenario.trough.side_wall_friction; })},
         {"rayleigh_fraction", "1", "Largest time step in Rayleigh times of the smallest grain",
          Real([](Case c) { return c.scenario.solver.rayleigh_fraction; })},
-        {"contact_model", "1", "Normal force of the contacts: hertz or hooke",
+        {"contact_model", "1", "Normal force of the contacts, a word of engine.contact",
          Text([](Case c) { return std::string(name_of(c.scenario.engine.contact)); })},
         {"cohesion", "J/m3", "Energy density of the cohesion model sjkr, 0 when the model is off",
          Real([](Case c) { return c.scenario.engine.cohesion; })},
