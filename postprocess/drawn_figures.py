@@ -1,9 +1,12 @@
-"""Which figure was drawn from which data, and how files are written and figures put into a page.
+"""Which figures there are, which was drawn from which data, and how files are written and figures put into a page.
+
+figure_kinds.json has a row for each kind of figure: its drawing function is plot_KIND of the module.
 
 OUT/figures.json names every figure with the SHA-256 of the data that it was drawn from. A report shows no figure of an earlier
 state of the campaign.
 """
 
+import dataclasses
 import hashlib
 import json
 import os
@@ -15,6 +18,22 @@ import vibrotrough
 
 SVG = "http://www.w3.org/2000/svg"
 LARGEST_NOTE = 64 << 20  # bytes
+
+@dataclasses.dataclass(frozen=True)
+class Kind:
+    """A kind of figure."""
+
+    kind: str  # what --only takes
+    module: str  # that has its drawing function
+    file: str  # that it is drawn from: result.h5 for one of each case, else a file of the campaign
+    title: str
+
+    @property
+    def is_of_case(self) -> bool:
+        return self.file == "result.h5"
+
+
+KINDS = [Kind(**row) for row in json.loads(pathlib.Path(__file__).with_name("figure_kinds.json").read_text(encoding="utf-8"))]
 
 ElementTree.register_namespace("", SVG)
 ElementTree.register_namespace("xlink", "http://www.w3.org/1999/xlink")

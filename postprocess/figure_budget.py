@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
 BAR = 0.38
 MOST_CASES = 12
-RESOLVED = ("extrapolated", "resolved")
 
 Budget = dict[str, Any]
 
@@ -33,9 +32,9 @@ def read_budgets(directory: pathlib.Path, order: list[str]) -> list[Budget]:
 
 
 def shares(budget: Budget) -> list[float]:
-    """Heights that add up to the numerical error: parts add in squares, so each has its square over the total."""
-    total = budget["numerical_error"]
-    return [setting["bound"] ** 2 / total if total else 0.0 for setting in budget["settings"]]
+    """Heights that add up to the numerical error: each part has its share of the sum of the squares of what they are below."""
+    squares = [setting["bound"] ** 2 for setting in budget["settings"]]
+    return [budget["numerical_error"] * square / sum(squares) if square else 0.0 for square in squares]
 
 
 def draw_budget(axes: Axes, place: float, budget: Budget, colours: dict[str, str]) -> None:
@@ -44,7 +43,7 @@ def draw_budget(axes: Axes, place: float, budget: Budget, colours: dict[str, str
         return
     bottom = 0.0
     for setting, height in zip(budget["settings"], shares(budget)):
-        sure = setting["verdict"] in RESOLVED
+        sure = abs(setting["error"]) > setting["error_half_width"]
         axes.bar(place + BAR / 2, height, BAR, bottom=bottom, color=colours[setting["setting"]] if sure else "white",
                  edgecolor=colours[setting["setting"]], hatch=None if sure else "////", linewidth=0.8)
         bottom += height
@@ -80,9 +79,9 @@ def plot_budget(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
     axes.margins(y=0.12)
     handles = [Patch(facecolor="#bbbbbb", edgecolor=GREY, label="statistical (left bar)")]
     handles += [Patch(facecolor=colours[setting], label=title) for setting, title in titles.items()]
-    handles.append(Patch(facecolor="white", edgecolor=GREY, hatch="////", label="not resolved: its interval"))
+    handles.append(Patch(facecolor="white", edgecolor=GREY, hatch="////", label="not found: what it is below"))
     axes.legend(handles=handles, frameon=False, fontsize=points(8), loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
     left = f"; {len(every) - len(budgets)} more cases" if len(every) > len(budgets) else ""
-    corner(figure, source.attributes, f"heights are squares over the total: parts add in squares{left}")
+    corner(figure, source.attributes, f"heights: shares of the sum of squares{left}")
     figure.tight_layout(rect=(0, 0.03, 1, 1))
     return save(figure, output)

@@ -5,18 +5,21 @@ import json
 import math
 import pathlib
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from drawn_figures import read_note
-from figure_inputs import SYMBOLS, UNITS
+from figure_inputs import SYMBOLS, UNITS, split_inputs
 from figure_style import COLOURS, EFFICIENCY, GREY, MARKERS, Problem, TooMany, WrongInput, corner, new_figure, one_line, plain, plain_axes, points, save, shown
 
 Row = dict[str, Any]
 Floats = NDArray[np.float64]
+if TYPE_CHECKING:
+    from figures import Source
+
 Model = tuple[str, str, str, str, str]  # column, line and mark, and the words for these
 
 # What theory, law and atlas say of the same case, as efficiencies of the table; their lines and marks, and the words for these.
@@ -244,3 +247,21 @@ def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str,
     corner(figure, tables[0].attributes, f"{left_out} of {left_out + drawn} cases are not known" if left_out else "")
     figure.tight_layout(rect=(0, 0.03, 1, 1))
     return save(figure, target / (kind or f"{base_name(y.column)}-over-{base_name(x.column).rpartition('.')[2]}"))
+
+
+def plot_speed(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
+    return plot_for_machine(source, output, ("conveying_speed_m_per_s",))
+
+
+def plot_mass_flow(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
+    return plot_for_machine(source, output, ("mass_flow_t_per_h", "mass_flow_per_width_t_per_h_m"))
+
+
+def plot_for_machine(source: "Source", output: pathlib.Path, columns: Sequence[str]) -> list[pathlib.Path]:
+    """The first of these columns that is known of any case, over the input over which the efficiency is drawn; nothing where none is."""
+    column = source.known_column(columns)
+    if column is None:
+        return []
+    over, others = split_inputs(source.campaign, source.inputs)
+    return plot_columns([source.output], source.output, source.column_of(over.key), column, [source.column_of(one.key) for one in others], None, 1.0,
+                        output.name)

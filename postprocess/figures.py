@@ -10,6 +10,7 @@ theory. Prints the path of every file it wrote. Nothing of the theory is compute
 import argparse
 import concurrent.futures.process
 import functools
+import importlib
 import json
 import multiprocessing
 import os
@@ -20,25 +21,12 @@ import warnings
 from collections.abc import Callable, Collection, Iterator
 from typing import Any
 
-import figure_budget
 import figure_columns
-import figure_cycles
-import figure_portraits
-import figure_residuals
-import figure_spin
-import figure_tables
 import vibrotrough
-from drawn_figures import DrawnFigures, digest_of_data, read_note
-from figure_inputs import split_inputs, swept_inputs
+from drawn_figures import KINDS, DrawnFigures, Kind, digest_of_data, read_note
+from figure_inputs import swept_inputs
 from figure_style import FORMATS, Problem, TooMany, TooNarrow, WrongInput, one_line, shown, take_style, target
 from matplotlib import pyplot as plt
-from plot_campaign import plot_efficiency
-
-KINDS = ("efficiency", "speed", "mass_flow", "residuals", "budget", "cycles", "portraits", "spin", "profiles", "screening", "partition", "segregation", "along", "residence", "stages")
-
-
-# What a machine does, and the columns that say it, the best first.
-MACHINE = {"speed": ("conveying_speed_m_per_s",), "mass_flow": ("mass_flow_t_per_h", "mass_flow_per_width_t_per_h_m")}
 
 
 class Source:
@@ -68,16 +56,6 @@ class Source:
     def column_of(self, key: str) -> str:
         """The column of `compare` that holds a swept key."""
         return next((str(one["column"]) for one in self.overview["swept"] if one["key"] == key), key.removeprefix("trough."))
-
-
-def plot_for_machine(source: Source, kind: str) -> list[pathlib.Path]:
-    """Speed or mass flow over the input over which the efficiency is drawn; nothing where no case has it."""
-    column = source.known_column(MACHINE[kind])
-    if column is None:
-        return []
-    over, others = split_inputs(source.campaign, source.inputs)
-    return figure_columns.plot_columns([source.output], source.output, source.column_of(over.key), column,
-                                       [source.column_of(one.key) for one in others], None, 1.0, kind)
 
 
 def draw(source: Source, only: Collection[str], cases: Collection[str]) -> Iterator[list[pathlib.Path]]:
@@ -146,33 +124,22 @@ def drawn(name: str, file: pathlib.Path, draw_one: Callable[[], list[pathlib.Pat
     return []
 
 
+def drawer(kind: Kind) -> Callable[..., list[pathlib.Path]]:
+    """The function that draws a kind of figure; it returns the files that it wrote, none when there is nothing to draw."""
+    found: Callable[..., list[pathlib.Path]] = getattr(importlib.import_module(kind.module), f"plot_{kind.kind}")
+    return found
+
+
 def draw_general(source: Source, only: Collection[str]) -> Iterator[list[pathlib.Path]]:
     """The figures of the campaign as a whole."""
-    table = source.directory / "campaign.h5"
-
-    def efficiency() -> list[pathlib.Path]:
-        rows = {row["case"]: row for row in source.overview["cases"]}
-        return plot_efficiency(source.directory, source.data / "theory_curves.csv", source.output / "efficiency", rows)
-
-    if "efficiency" in only:
-        yield drawn("efficiency", table, efficiency)
-    for kind in MACHINE:
-        if kind in only:
-            yield drawn(kind, table, functools.partial(plot_for_machine, source, kind))
-    if "residuals" in only:
-        yield drawn("residuals", table, lambda: figure_residuals.plot_residuals(source, source.output / "residuals"))
-    if "budget" in only:
-        yield drawn("budget", source.directory / "numerics.json", lambda: figure_budget.plot_budget(source, source.output / "budget"))
+    for kind in KINDS:
+        if kind.kind in only and not kind.is_of_case:
+            yield drawn(kind.kind, source.directory / kind.file, functools.partial(drawer(kind), source, source.output / kind.kind))
 
 
 def draw_case(source: Source, only: Collection[str], case: str) -> Iterator[list[pathlib.Path]]:
     """The figures of one case, when its result.h5 is there and whole."""
-    drawers = {"cycles": figure_cycles.plot_cycles, "portraits": figure_portraits.plot_portraits,
-               "spin": figure_spin.plot_spin, "profiles": figure_portraits.plot_profiles,
-               "screening": figure_tables.plot_screening, "partition": figure_tables.plot_partition,
-               "segregation": figure_tables.plot_segregation,
-               "along": figure_tables.plot_along, "residence": figure_tables.plot_residence, "stages": figure_tables.plot_stages}
-    wanted = [kind for kind in drawers if kind in only]
+    wanted = [kind for kind in KINDS if kind.kind in only and kind.is_of_case]
     if not wanted:
         return
     try:
@@ -181,15 +148,16 @@ def draw_case(source: Source, only: Collection[str], case: str) -> Iterator[list
         print(shown(f"figures.py: case {case} is left out: {one_line(error)}"), file=sys.stderr)
         return
     for kind in wanted:
-        name = f"{kind}-{case}"
-        yield drawn(name, result.path, lambda: drawers[kind](source, case, result, source.output / name))
+        name = f"{kind.kind}-{case}"
+        yield drawn(name, result.path, functools.partial(drawer(kind), source, case, result, source.output / name))
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    kinds = [kind.kind for kind in KINDS]
     parser.add_argument("directory", type=pathlib.Path, metavar="DIR", help="a campaign's folder, with campaign.h5")
     parser.add_argument("--output", type=pathlib.Path, metavar="OUT", help="folder of the figures")
-    parser.add_argument("--only", action="append", choices=KINDS, help="draw this kind only")
+    parser.add_argument("--only", action="append", choices=kinds, help="draw this kind only")
     parser.add_argument("--case", action="append", default=[], metavar="ID", help="single cases' figures of this one only")
     parser.add_argument("--format", action="append", choices=FORMATS, help="write this kind of file; several for several")
     parser.add_argument("--width", type=float, metavar="METRES", help="width of every figure, for print")
@@ -211,7 +179,7 @@ def main() -> None:
         figures = iter([figure_columns.plot_columns([output, *options.others], output, options.x, options.y,
                                                     options.by and [options.by], options.unit, options.factor)])
     else:
-        figures = draw(Source(options.directory, output), options.only or KINDS, options.case)
+        figures = draw(Source(options.directory, output), options.only or kinds, options.case)
     for paths in figures:
         for path in paths:
             print(shown(path), flush=True)

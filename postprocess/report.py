@@ -19,7 +19,7 @@ from typing import Any
 import jinja2
 import markupsafe
 
-from drawn_figures import DrawnFigures, digest_of_data, drawing_of, read_note, write_file
+from drawn_figures import KINDS, DrawnFigures, Kind, digest_of_data, drawing_of, read_note, write_file
 from figure_columns import half_width_name
 from figure_style import Problem, one_line, plain, shown
 from report_reasons import reasons
@@ -39,25 +39,6 @@ MODE_LETTERS = {
     "P\u2032, N\u2032": "slides that directly follow a landing",
 }
 WITHOUT_FAILURE = ("finished", "open", "running", "interrupted")
-FIGURES = [
-    ("efficiency", "Velocity efficiency of the layer beside the theory"),
-    ("speed", "Conveying speed of the layer, and what the models say of the same cases"),
-    ("mass_flow", "Mass flow, and what the models say of the same cases"),
-    ("residuals", "What the theory misses"),
-    ("budget", "Statistical and numerical error"),
-]
-CASE_FIGURES = [
-    ("cycles", "Every cycle, the discarded start shaded"),
-    ("portraits", "Layer and point mass over a cycle"),
-    ("spin", "Spin and slip of the floor grains over a cycle"),
-    ("profiles", "Velocity over height"),
-    ("screening", "Efficiency of screening over the length of the screen"),
-    ("partition", "Partition curve of the screen"),
-    ("segregation", "Segregation of the materials"),
-    ("along", "Depth and speed along the trough"),
-    ("residence", "How long the grains stay in the trough"),
-    ("stages", "Speed over the cycles of the stages"),
-]
 
 
 MOST_LEVELS = 20  # of a certificate; ours have four
@@ -119,16 +100,17 @@ class Figures:
         self.directory, self.output, self.number = directory, output, 0
         self.drawn = DrawnFigures(output)
 
-    def get(self, name: str, title: str, data: str) -> dict[str, Any] | None:
-        content = self.drawn.read(f"{name}.svg", data)
+    def get(self, kind: Kind, case: str | None, data: str) -> dict[str, Any] | None:
+        content = self.drawn.read(f"{kind.kind}-{case}.svg" if case else f"{kind.kind}.svg", data)
         if content is None:
             return None
         self.number += 1
-        return {"number": self.number, "title": title, "svg": inline_svg(drawing_of(content), self.number, title), "kind": name.split("-")[0]}
+        return {"number": self.number, "title": kind.title, "svg": inline_svg(drawing_of(content), self.number, kind.title), "kind": kind.kind,
+                "from": "result.h5 of this case" if case else kind.file}
 
-    def all(self, names: list[tuple[str, str]], case: str | None = None) -> list[dict[str, Any]]:
+    def all(self, case: str | None = None) -> list[dict[str, Any]]:
         data = digest_of_data(self.directory, self.output, case)
-        return [figure for figure in (self.get(*one, data) for one in names) if figure]
+        return [figure for kind in KINDS if kind.is_of_case == (case is not None) if (figure := self.get(kind, case, data))]
 
 
 # Before the efficiencies, because a screen is narrower than the table.
@@ -139,7 +121,7 @@ FIRST_FIGURES = {"screen": ("screening", "partition"), "open trough": ("along", 
 
 
 # What only some readers look for: shown at the push of a button, so that the rest fits on a screen.
-MINOR = ("efficiency_half_width_statistics", "efficiency_numerics", "numerical_error_case", "larger_error", "mass_flow_per_width_t_per_h_m",
+MINOR = ("efficiency_half_width_statistics", "efficiency_numerics", "numerics_source", "larger_error", "mass_flow_per_width_t_per_h_m",
          "power_per_area_w_per_m2", "added_mass_fraction", "damping_per_area_n_s_per_m3", "cycles_discarded", "wall_time_s")
 
 def report_columns(overview: dict[str, Any]) -> list[Column]:
@@ -238,13 +220,13 @@ def render(directory: pathlib.Path, output: pathlib.Path) -> str:
     overview = read_json(output / "data" / "campaign.json")
     cases = overview["cases"]
     figures = Figures(directory, output)
-    general = figures.all(FIGURES)
+    general = figures.all()
     certificate, lists = split_certificate(as_table(read_certificate(directory)))
     columns, told = split_columns(report_columns(overview), cases)
     single = [
         {"case": case, "figures": found}
         for case in cases
-        if (found := figures.all([(f"{kind}-{case['case']}", title) for kind, title in CASE_FIGURES], case["case"]))
+        if (found := figures.all(case["case"]))
     ] if len(cases) <= MOST_CASES else []
     kind = kind_of(cases)
     at_top = [figure for name in FIRST_FIGURES[kind] for figure in (single[0]["figures"] if single else []) if figure["kind"] == name]

@@ -187,8 +187,8 @@ def not_known(cases: list[Case], campaign: dict[str, Any]) -> list[str]:
     if unvaried:
         sentences.append(f"{' and '.join(unvaried).capitalize()}: not varied here, so that what {'they do' if len(unvaried) > 1 else 'it does'} to the difference from the theory is "
                          "not seen.")
-    if not any(known(case, "numerical_error_case") for case in told):
-        sentences.append("Box, stiffness and time step: their errors are bounds from other layers and not those of this campaign ('vibrotrough convergence').")
+    if not any(case.get("numerics_source") == "convergence" for case in told):
+        sentences.append("Box, stiffness and time step: their errors are those of other layers and not those of this campaign ('vibrotrough convergence').")
     return sentences
 
 

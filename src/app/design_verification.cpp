@@ -40,7 +40,7 @@ struct Simulated {
 
 /// The layers of a campaign that has run.
 void read_layers(campaign::Plan const& plan, theory::Drive const& drive, Simulated& found) {
-    auto const studied = campaign::read_case_numerics(plan);
+    auto const studied = campaign::read_case_numerics(plan.folder);
     for (campaign::PlannedCase const& planned : plan.cases) {
         double const friction = planned.scenario().trough.friction;
         auto const summary = campaign::find_summary(planned);
@@ -56,9 +56,8 @@ void read_layers(campaign::Plan const& plan, theory::Drive const& drive, Simulat
             continue;
         }
         auto const study = studied.find(planned.id);
-        double const numerics = study != studied.end()
-                                    ? study->second.error
-                                    : prepare::numerical_errors(planned.scenario()).total();
+        double const numerics =
+            study != studied.end() ? study->second : prepare::numerical_errors(planned.scenario()).total();
         found.layers.push_back({drive, friction, scenario::layer_height(planned.scenario()),
                                 *record.estimate.mean, *record.estimate.half_width, numerics});
     }

@@ -255,7 +255,7 @@ std::string budget_cell(Row const& row) {
                numerical = row.number("efficiency_numerics");
     if (!statistical || !numerical) return efficiency_cell(row);
     return core::three_digits(row.number("efficiency")) + " +- " + core::three_digits(statistical) + " +- " +
-           (is_bound(row) ? "<" : "") + core::three_digits(numerical) + (is_borrowed(row) ? "*" : "");
+           core::three_digits(numerical) + (is_expected(row) ? "*" : "");
 }
 
 std::string larger_error_colour(Row const& row) {

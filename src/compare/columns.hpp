@@ -94,8 +94,7 @@ bool is_swept(Column const& column, scenario::SweptKeys const& swept);
 std::optional<Value> swept_value(scenario::Scenario const& scenario, scenario::Key const& key);
 
 /// The same columns for the terminal's table of `compare --budget`: the efficiency with its statistical and
-/// its numerical error, a star behind one that is borrowed and < before a bound, and which of the two is
-/// larger.
+/// its numerical error, a star behind one that is only expected, and which of the two is larger.
 std::vector<Column> budget_columns(std::span<Column const> columns = all_columns());
 
 }  // namespace vibrotrough::compare

@@ -52,7 +52,7 @@ std::vector<Column> columns_of(campaign::Plan const& plan) {
 ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity const& activity,
                              campaign::OverviewSink const& sink) {
     auto const tests = campaign::read_friction(plan.folder);
-    auto const numerics = campaign::read_case_numerics(plan);
+    auto const numerics = campaign::read_case_numerics(plan.folder);
     auto const observables = campaign::read_observables(plan.folder);
     ComparedCases found{.cases = {}, .rows = {}, .columns = columns_of(plan)};
     found.rows.resize(plan.cases.size());
@@ -68,7 +68,7 @@ ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity cons
         if (record != nullptr) measured = *record;
         if (record != nullptr) found.estimates[i] = record->estimate;
         if (auto const known = numerics.find(planned.id); measured && known != numerics.end())
-            measured->studied = known->second;
+            measured->studied_error = known->second;
         Row row = compare(planned.id, *planned.prepared, measured, std::string(one.label()), friction);
         for (scenario::Key const* const key : plan.swept)
             row.swept.push_back(swept_value(planned.scenario(), *key));

@@ -205,13 +205,8 @@ void Row::set(std::string_view quantity, std::optional<Value> const& value) {
     measured[place] = value;
 }
 
-bool is_bound(Row const& row) {
-    return row.of("efficiency_numerics") && !row.of("numerical_error_case");
-}
-
-bool is_borrowed(Row const& row) {
-    auto const studied = row.of("numerical_error_case");
-    return studied && *studied != Value(row.id);
+bool is_expected(Row const& row) {
+    return row.of("numerics_source") == Value(std::string("expected"));
 }
 
 bool disagrees_with_atlas(Row const& row) {

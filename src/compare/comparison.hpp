@@ -67,11 +67,8 @@ struct Row {
 /// The quantities of a result that have columns, in the order of store::quantities().
 std::vector<store::Quantity const*> const& measured_quantities();
 
-/// Whether the numerical error of a row is a bound that is known beforehand, and not one that was studied.
-bool is_bound(Row const& row);
-
-/// Whether the numerical error of a row is that of another case, the nearest that was studied.
-bool is_borrowed(Row const& row);
+/// Whether the numerical error of a row is what is known beforehand, and not what a study found.
+bool is_expected(Row const& row);
 
 /// Whether the atlas and the simulation of a row are apart by more than both intervals.
 bool disagrees_with_atlas(Row const& row);

@@ -139,7 +139,7 @@ std::optional<double> numerics_of_difference(scenario::Scenario const& one, Row 
     if (!of_one && !of_other) return {};
     bool const is_alike = differ_in_materials_only(one, other);
     if (is_alike && one.grains.youngs_modulus == other.grains.youngs_modulus) return 0;
-    if (!is_alike || !is_bound(row_of_one) || !is_bound(row_of_other))
+    if (!is_alike || !is_expected(row_of_one) || !is_expected(row_of_other))
         return std::hypot(of_one.value_or(0), of_other.value_or(0));
     return std::hypot(prepare::numerical_errors(one).softness, prepare::numerical_errors(other).softness);
 }

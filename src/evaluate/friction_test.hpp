@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-// The virtual friction test (Sloot & Kruyt, Powder Technology 87, 1996, section 6 and Fig. 8): a layer on a
+// The virtual friction test (Sloot & Kruyt, Powder Technology 87, 1996, section 3.5 and Fig. 8): a layer on a
 // level trough that shakes along itself. The largest distance that it slides gives the friction of the layer
 // as a whole, which rolls and shears, as opposed to the friction of its grains.
 namespace vibrotrough::evaluate {

@@ -47,14 +47,27 @@ void add_error(SettingError& setting, StudyResult const& standard) {
 
 }  // namespace
 
-std::optional<double> NumericsBudget::numerical_error() const {
-    double squares = 0;
+std::optional<measure::NumericalError> SettingError::known_error() const {
+    if (!error) return {};
+    return measure::with_expected(*error, expected);
+}
+
+std::optional<measure::NumericalError> NumericsBudget::total() const {
+    measure::NumericalError sum{measure::Convergence::not_resolved, 0, 0};
     for (SettingError const& one : settings) {
         if (one.is_left_out()) continue;
-        if (!one.error) return {};
-        squares += std::pow(one.error->bound(), 2);
+        auto const known = one.known_error();
+        if (!known) return {};
+        sum.error += known->error;
+        sum.half_width = std::hypot(sum.half_width, known->half_width);
     }
-    return std::sqrt(squares);
+    if (std::abs(sum.error) > sum.half_width) sum.verdict = measure::Convergence::resolved;
+    return sum;
+}
+
+std::optional<double> NumericsBudget::numerical_error() const {
+    auto const all = total();
+    return all ? std::optional(all->bound()) : std::nullopt;
 }
 
 NumericsBudget make_budget(std::string const& case_id, double confidence, StudyResult const& standard,
@@ -63,7 +76,7 @@ NumericsBudget make_budget(std::string const& case_id, double confidence, StudyR
     NumericsBudget budget{case_id, confidence, standard, {}};
     auto result = results.begin();
     for (prepare::VariedSetting const& one : varied) {
-        SettingError setting{one.setting, one.value, one.order, {}, {}, one.left_out};
+        SettingError setting{one.setting, one.value, one.order, {}, {}, one.left_out, one.expected};
         for (prepare::NumericalVariation const& variation : one.variations) {
             if (result == results.end()) throw std::invalid_argument("a variation without a result");
             setting.variations.push_back({variation.value, variation.coarseness, *result++, {}, {}});

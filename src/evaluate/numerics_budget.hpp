@@ -3,6 +3,7 @@
 #include "measure/convergence.hpp"
 #include "prepare/numerics_variations.hpp"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,8 +37,12 @@ struct SettingError {
     std::optional<double> order;                     ///< of the error in the coarseness, if it is known
     std::vector<MeasuredVariation> variations = {};  ///< with decreasing coarseness
     std::optional<measure::NumericalError> error =
-        {};                    ///< none when it was left out or could not be measured
+        {};                    ///< as measured; none when it was left out or could not be measured
     std::string message = {};  ///< why there is no error
+    double expected = std::numeric_limits<double>::infinity();  ///< half-width known beforehand
+
+    /// The error by what was measured and what is known beforehand together (measure::with_expected).
+    std::optional<measure::NumericalError> known_error() const;
 
     /// Whether the setting does not matter for the case, so that its part of the budget is zero.
     bool is_left_out() const { return variations.empty(); }
@@ -50,9 +55,12 @@ struct NumericsBudget {
     StudyResult standard;                ///< the case with its own settings, simulated again in the study
     std::vector<SettingError> settings;  ///< in the order of prepare::vary_numerics
 
-    /// The numerical error of the velocity efficiency: the root of the sum of the squares of all parts
-    /// (measure::NumericalError::bound), because the settings act independently of each other. None when one
-    /// of the settings could not be measured.
+    /// The error of all settings together: the sum of their errors (SettingError::known_error), with the root
+    /// of the sum of the squares of their half-widths, because they are independent of each other. None when
+    /// one of the settings could not be measured.
+    std::optional<measure::NumericalError> total() const;
+
+    /// What the size of total() is below: the numerical error that the case's interval contains.
     std::optional<double> numerical_error() const;
 };
 

@@ -110,7 +110,7 @@ CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker c
     int const other_layers = leave_out_other_layers(known, maker);
     CampaignTrend const trend(maker, inputs_of(known, maker, words), words);
     CampaignPoints found{trend.inputs(), {}, {}, 0, other_layers, 0, trend.prior()};
-    auto const studied = campaign::read_case_numerics(known);
+    auto const studied = campaign::read_case_numerics(known.folder);
     for (campaign::PlannedCase const& planned : known.cases) {
         require_steady_drive(planned.scenario(), "a surface");
         if (!has_words(planned.scenario(), words)) continue;
@@ -119,8 +119,8 @@ CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker c
         if (!value) continue;
         auto const study = studied.find(planned.id);
         found.numerics = std::max(
-            found.numerics, study != studied.end() ? study->second.error
-                                                   : prepare::numerical_errors(planned.scenario()).total());
+            found.numerics,
+            study != studied.end() ? study->second : prepare::numerical_errors(planned.scenario()).total());
         auto const summary = campaign::find_summary(planned);
         if (!summary) {
             ++found.missing;

@@ -54,7 +54,14 @@ bool goes_through(Line const& line, std::span<RefinedMean const> means, double o
 }  // namespace
 
 double NumericalError::bound() const {
-    return std::max(std::abs(error), half_width);
+    return std::max(half_width, std::abs(error) + 0.84 * half_width);
+}
+
+NumericalError with_expected(NumericalError const& measured, double expected) {
+    double const both = std::hypot(measured.half_width, expected);
+    if (std::isinf(expected) || both == 0 || std::abs(measured.error) > both) return measured;
+    double const weight = std::pow(expected / both, 2);
+    return {measured.verdict, weight * measured.error, measured.half_width * expected / both};
 }
 
 NumericalError difference(RefinedMean const& a, RefinedMean const& b) {

@@ -25,10 +25,17 @@ struct NumericalError {
     double error;         ///< default minus limit, or minus the finest setting when it is not extrapolated
     double half_width;    ///< of its interval, at the confidence of the means
 
-    /// The part of this error in a budget: the larger of |error| and half_width. It is |error| when the
-    /// error is resolved, and the half-width of the interval when it is not.
+    /// What |error| is below at 95 %, when the error is normal with this mean and this half-width: the
+    /// half-width where the mean is small, else |error| + 0.84 half_width (0.84 = 1.645 / 1.960, the ratio of
+    /// the one-sided to the two-sided quantile).
     double bound() const;
 };
+
+/// The same error when it is also known beforehand that it lies within +-expected, at the same confidence:
+/// the mean of what was measured and of zero, weighted by the inverse squares of both half-widths. An error
+/// that contradicts what was expected, |error| > hypot(half_width, expected), stays as it was measured.
+/// @param expected  half-width, > 0; infinite when nothing is known beforehand
+NumericalError with_expected(NumericalError const& measured, double expected);
 
 /// The difference a - b of two independent means; the half-widths add as the root of their squares.
 NumericalError difference(RefinedMean const& a, RefinedMean const& b);

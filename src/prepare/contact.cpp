@@ -40,10 +40,6 @@ ContactPair two_grains(scenario::Grains const& grains, double radius) {
     return {radius / 2, sphere_mass(grains, radius) / 2};
 }
 
-ContactPair grain_on_trough(scenario::Grains const& grains, double radius) {
-    return {radius, sphere_mass(grains, radius)};
-}
-
 double effective_modulus(scenario::Grains const& grains) {
     return grains.youngs_modulus.value() / (2 * (1 - grains.poisson_ratio * grains.poisson_ratio));
 }
@@ -73,26 +69,19 @@ double nominal_restitution(double restitution) {
     return std::exp(-std::numbers::pi * z / std::sqrt(1 - z * z));
 }
 
-double real_restitution(double nominal) {
-    double const loss = std::log(nominal);
-    return restitution_of(-loss / std::hypot(std::numbers::pi, loss));
-}
-
 double linear_duration(double stiffness, double mass, double damping_ratio) {
     double const root = std::sqrt(1 - damping_ratio * damping_ratio);
     return 2 * std::acos(damping_ratio) / (std::sqrt(stiffness / mass) * root);
 }
 
+namespace {
+
+/// Attraction of the model sjkr per overlap, N/m: 2 pi R* times the energy density. The area of contact is
+/// that of the circle in which the spheres cut each other, 2 pi R* d for small overlaps d (LIGGGHTS, cohesion
+/// sjkr).
 double attraction_per_overlap(double cohesion, ContactPair const& pair) {
     return 2 * std::numbers::pi * pair.radius * cohesion;
 }
-
-double pull_off_force(scenario::Grains const& grains, double cohesion, ContactPair const& pair) {
-    double const modulus = effective_modulus(grains);
-    return 2 * std::pow(std::numbers::pi * cohesion, 3) / 3 * std::pow(pair.radius / modulus, 2);
-}
-
-namespace {
 
 /// F = 4/3 E* sqrt(R*) d^(3/2) - 2 pi R* w d, with the energy density w of the attraction.
 class HertzContact : public Contact {
@@ -122,8 +111,10 @@ class HertzContact : public Contact {
         return root * root;
     }
 
+    /// The net force is least at sqrt(d) = pi w sqrt(R*) / E*: (2 pi^3 / 3) w^3 R*^2 / E*^2.
     double pull_off_force(ContactPair const& pair) const override {
-        return prepare::pull_off_force(grains_, cohesion_, pair);
+        double const modulus = effective_modulus(grains_);
+        return 2 * std::pow(std::numbers::pi * cohesion_, 3) / 3 * std::pow(pair.radius / modulus, 2);
     }
     std::optional<double> attraction_ratio(ContactPair const&) const override { return {}; }
     double stiffness_exponent() const override { return 2.0 / 3; }

@@ -20,9 +20,6 @@ struct ContactPair {
 /// Two equal spheres of this radius (m) and of the grains' density: R* = R / 2 and m* = m / 2.
 ContactPair two_grains(scenario::Grains const& grains, double radius);
 
-/// A sphere of this radius (m) on the trough: R* = R and m* = m.
-ContactPair grain_on_trough(scenario::Grains const& grains, double radius);
-
 /// E* = E / (2 (1 - nu^2)), Pa: both bodies are of the grains' material.
 double effective_modulus(scenario::Grains const& grains);
 
@@ -52,9 +49,6 @@ double damping_ratio(double restitution);
 /// 0.44, 0.8 needs 0.79.
 double nominal_restitution(double restitution);
 
-/// What a nominal coefficient of the engine really gives: the inverse of nominal_restitution().
-double real_restitution(double nominal);
-
 /// The least that the engine can be asked for: it takes coefficients from 0.05 on. Critical damping gives
 /// exp(-2) = 0.135.
 inline constexpr double least_restitution = 0.2137;
@@ -62,18 +56,7 @@ inline constexpr double least_restitution = 0.2137;
 /// Duration of an impact on a linear spring (N/m) that never attracts, s: 2 acos(z) / (w0 sqrt(1 - z^2)).
 double linear_duration(double stiffness, double mass, double damping_ratio);
 
-/// Attraction of the model sjkr per overlap, N/m: 2 pi R* times the energy density. The area of contact is
-/// that of the circle in which the spheres cut each other, 2 pi R* d for small overlaps d (LIGGGHTS, cohesion
-/// sjkr).
-double attraction_per_overlap(double cohesion, ContactPair const& pair);
-
-/// The pull that separates a Hertz contact with the attraction of sjkr, N. The net force 4/3 E* sqrt(R*)
-/// d^(3/2) - 2 pi R* w d, with the energy density w, is least at sqrt(d) = pi w sqrt(R*) / E*:
-/// F = (2 pi^3 / 3) w^3 R*^2 / E*^2.
-double pull_off_force(scenario::Grains const& grains, double cohesion, ContactPair const& pair);
-
-/// The contact model of a case: its answers to all that is asked of one before a case runs. A third model is
-/// a class here, a word of `engine.contact`, and its lines in input_templates/contact.mustache.
+/// The contact model of a case: its answers to all that is asked of one before a case runs.
 class Contact {
   public:
     virtual ~Contact() = default;

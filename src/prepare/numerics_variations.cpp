@@ -1,10 +1,13 @@
 #include "prepare/numerics_variations.hpp"
 
 #include "prepare/contact.hpp"
+#include "prepare/numerical_errors.hpp"
 #include "scenario/reader/keys.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -100,6 +103,26 @@ std::vector<VariedSetting> vary_block(PreparedCase const& c) {
             left_out(NumericalSetting::width, s.layer.width, "a block does not meet its periodic images")};
 }
 
+/// What is known beforehand of the settings' errors.
+void expect_errors(std::vector<VariedSetting>& settings, NumericalErrors const& known) {
+    auto const varies = [&](NumericalSetting setting) {
+        auto const is_varied = [&](VariedSetting const& one) {
+            return one.setting == setting && one.left_out.empty();
+        };
+        return std::ranges::any_of(settings, is_varied);
+    };
+    bool const is_shared = varies(NumericalSetting::length) && varies(NumericalSetting::width);
+    for (VariedSetting& one : settings) {
+        if (one.setting == NumericalSetting::youngs_modulus) {
+            one.expected = known.softness;
+        } else if (one.setting == NumericalSetting::time_step) {
+            one.expected = known.time_step;
+        } else {
+            one.expected = is_shared ? known.box / std::numbers::sqrt2 : known.box;
+        }
+    }
+}
+
 }  // namespace
 
 std::string_view name_of(NumericalSetting setting) {
@@ -128,11 +151,14 @@ std::vector<VariedSetting> vary_numerics(PreparedCase const& c) {
                         : vary_box(s, setting, member);
     };
     bool const is_mesh = s.trough.mesh != nullptr;
-    return {vary_modulus(s), vary_time_step(c),
-            side(NumericalSetting::length, &scenario::Layer::length, is_mesh || is_open(s),
-                 is_mesh ? "the mesh has one length" : "the length of an open trough is part of the problem"),
-            side(NumericalSetting::width, &scenario::Layer::width, is_mesh || s.trough.side_wall_friction,
-                 is_mesh ? "the mesh has one width" : "between side walls the width is part of the problem")};
+    std::vector<VariedSetting> settings{
+        vary_modulus(s), vary_time_step(c),
+        side(NumericalSetting::length, &scenario::Layer::length, is_mesh || is_open(s),
+             is_mesh ? "the mesh has one length" : "the length of an open trough is part of the problem"),
+        side(NumericalSetting::width, &scenario::Layer::width, is_mesh || s.trough.side_wall_friction,
+             is_mesh ? "the mesh has one width" : "between side walls the width is part of the problem")};
+    expect_errors(settings, numerical_errors(s));
+    return settings;
 }
 
 }  // namespace vibrotrough::prepare

@@ -2,6 +2,7 @@
 
 #include "prepare/prepared_case.hpp"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,6 +42,9 @@ struct VariedSetting {
     std::optional<double> order;                      ///< of the error in the coarseness, if it is known
     std::vector<NumericalVariation> variations = {};  ///< with decreasing coarseness; none when left out
     std::string left_out = {};                        ///< why there are no variations
+    /// Half-width of the setting's error that is known beforehand (numerical_errors), infinite when it is
+    /// not. That of the box is shared by its length and its width, so that both together have all of it.
+    double expected = std::numeric_limits<double>::infinity();
 };
 
 /// The variations by which the numerical error of a case is measured.

@@ -37,8 +37,8 @@ struct StepLimits {
 ///   section 11.4). v is twice the largest speed of the drive: a grain that flies at this speed meets the
 ///   trough when the trough approaches it at the same speed.
 ///
-/// With `contact = "hooke"` the contact time is that of prepare/contact.hpp, linear_impact() of two equal
-/// grains: a spring chosen for the same speed v, with the damping of the lower restitution.
+/// With another `engine.contact` the contact time is that of its class in prepare/contact.cpp, of two equal
+/// grains at the same speed v, with the lower restitution.
 ///
 /// A block has a linear contact of duration T / block_stiffness instead and 1/20 of that as its time step.
 /// @throws core::InputError when a cycle would take more than 1e8 steps

@@ -9,7 +9,7 @@ namespace vibrotrough::store {
 std::optional<double> CaseRecord::numerical_error() const {
     if (!estimate.mean) return {};
     if (has_given_length(scenario)) return {};  // they are known for steady drives and layers
-    if (studied) return studied->error;
+    if (studied_error) return studied_error;
     if (scenario.layer.block != scenario::Block::none) return {};
     return prepare::numerical_errors(scenario).total();
 }

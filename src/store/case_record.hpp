@@ -55,12 +55,6 @@ struct Provenance {
     std::string finished;            ///< ISO 8601, UTC
 };
 
-/// The numerical error of a case's velocity efficiency that a study has measured ('vibrotrough convergence').
-struct CaseNumerics {
-    double error;         ///< default settings against their limits, >= 0
-    std::string case_id;  ///< of the case at which it was measured: the case itself, or its nearest
-};
-
 /// A finished case: everything that result.h5 holds.
 struct CaseRecord {
     std::string id;                       ///< of the case
@@ -71,8 +65,9 @@ struct CaseRecord {
     std::vector<PackingRecord> packings;  ///< in the order of their numbers
     Provenance provenance;                ///< of the result
     std::string layer_mode;               ///< of most packings, see measure::LayerMotion
-    std::optional<CaseNumerics> studied =
-        {};  ///< in place of the bounds of the numerical errors; not in result.h5
+    /// Numerical error of the velocity efficiency that 'vibrotrough convergence' found for this case, >= 0;
+    /// in place of what is known beforehand, and not in result.h5.
+    std::optional<double> studied_error = {};
     /// What the theory says of the case, for campaign.h5; not in result.h5, which holds what was measured.
     prepare::PointMassTheory theory = {};
 

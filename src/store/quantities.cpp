@@ -117,13 +117,16 @@ std::vector<Quantity> efficiency_quantities() {
          Real([](Case c) { return c.numerical_error(); }),
          nothing,
          {{.format = "{:.3f}", .report = ReportView{"\u00b1 numerical"}}}},
-        {"numerical_error_case",
+        {"numerics_source",
          "1",
-         "Case that efficiency_numerics was measured at: this one, or the nearest that was studied; "
-         "empty for a bound",
-         Text([](Case c) { return c.studied ? c.studied->case_id : std::string(); }),
+         "Where efficiency_numerics is from: convergence, when that command studied the case, or expected, "
+         "by what other layers showed; empty without it",
+         Text([](Case c) -> std::string {
+             if (!c.numerical_error()) return "";
+             return c.studied_error ? "convergence" : "expected";
+         }),
          nothing,
-         {{.report = ReportView{"numerical error of case"}}}},
+         {{.report = ReportView{"numerical error by"}}}},
         {"efficiency_by_normal_force",
          "1",
          "Velocity efficiency of a point mass with Coulomb friction under the layer's own normal force; NaN "
@@ -296,7 +299,7 @@ std::vector<Quantity> grain_and_layer_quantities() {
          Real([](Case c) { return c.scenario.trough.side_wall_friction; })},
         {"rayleigh_fraction", "1", "Largest time step in Rayleigh times of the smallest grain",
          Real([](Case c) { return c.scenario.solver.rayleigh_fraction; })},
-        {"contact_model", "1", "Normal force of the contacts: hertz or hooke",
+        {"contact_model", "1", "Normal force of the contacts, a word of engine.contact",
          Text([](Case c) { return std::string(name_of(c.scenario.engine.contact)); })},
         {"cohesion", "J/m3", "Energy density of the cohesion model sjkr, 0 when the model is off",
          Real([](Case c) { return c.scenario.engine.cohesion; })},

@@ -66,16 +66,6 @@ bool rests_within_cycle(std::string const& mode) {
     return mode != "PN";
 }
 
-std::vector<ShakePoint> shake_curve(ShakeTest const& test, double from, double to, int count) {
-    if (count < 2) throw std::invalid_argument("a curve has at least two points");
-    std::vector<ShakePoint> curve;
-    for (int i = 0; i < count; ++i) {
-        double const friction = from + (to - from) * i / (count - 1);
-        curve.push_back({friction, shake(test, friction)});
-    }
-    return curve;
-}
-
 FrictionEstimate friction_from_shake(ShakeTest const& test, double displacement, double uncertainty) {
     check(test);
     detail::require_range(displacement > 0 && displacement < 1e3, "max_relative_displacement", displacement,

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-// The friction coefficient from a horizontal shake test (Sloot & Kruyt 1996, Section 6 and Fig. 8): a box of
+// The friction coefficient from a horizontal shake test (Sloot & Kruyt 1996, section 3.5 and Fig. 8): a box of
 // grains slides on a plate that is shaken horizontally (beta = 0), and mu follows from the largest
 // displacement of the box relative to the plate.
 namespace vibrotrough::theory {
@@ -28,15 +27,6 @@ ShakeMotion shake(ShakeTest const& test, double friction);
 
 /// The mass rests within the cycle, so that static friction acts on the result: the mode is not PN.
 bool rests_within_cycle(std::string const& mode);
-
-/// A point of the forward curve.
-struct ShakePoint {
-    double friction;     ///< mu
-    ShakeMotion motion;  ///< at that friction
-};
-
-/// The forward curve at `count` >= 2 equal steps of mu from `from` to `to`, both included.
-std::vector<ShakePoint> shake_curve(ShakeTest const& test, double from, double to, int count);
 
 /// The friction that explains a measured displacement.
 struct FrictionEstimate {

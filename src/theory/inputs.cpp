@@ -14,26 +14,6 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double zero_vibration_tangent = 1e-12;
 constexpr double gravity = 9.81;  // m/s^2, as Machine::gravity
 
-constexpr std::array<std::string_view, input_count> names{"throw_number",
-                                                          "machine_number",
-                                                          "vibration_angle_deg",
-                                                          "tan_vibration_angle",
-                                                          "inclination_deg",
-                                                          "tan_inclination",
-                                                          "friction",
-                                                          "frequency_hz",
-                                                          "amplitude_m",
-                                                          "stroke_mm",
-                                                          "static_friction",
-                                                          "restitution",
-                                                          "air_drag",
-                                                          "along_ratio",
-                                                          "along_phase_deg",
-                                                          "wall_friction",
-                                                          "wall_pressure_ratio",
-                                                          "height_over_width",
-                                                          "landing_friction"};
-
 /// What people also write for an input.
 struct OtherUnit {
     std::string_view name;
@@ -56,14 +36,17 @@ double tangent_of_vibration_angle(double degrees) {
 
 }  // namespace
 
-std::string_view name_of(Input input) {
-    return names[static_cast<std::size_t>(input)];
+std::optional<Input> input_named(std::string_view name) {
+    auto const* const row = std::ranges::find(input_rows, name, &InputRow::name);
+    if (row == input_rows.end()) return std::nullopt;
+    return static_cast<Input>(row - input_rows.begin());
 }
 
-std::optional<Input> input_named(std::string_view name) {
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (names[i] == name) return static_cast<Input>(i);
-    }
+std::optional<double> value_in(Conveyor const& conveyor, InputRow const& row) {
+    if (auto const* const member = std::get_if<double Conveyor::*>(&row.member))
+        return conveyor.**member / row.factor;
+    if (auto const* const member = std::get_if<std::optional<double> Conveyor::*>(&row.member))
+        return conveyor.**member;
     return std::nullopt;
 }
 
@@ -76,7 +59,8 @@ std::optional<InputColumn> input_column_named(std::string_view name) {
 }
 
 std::vector<std::string> input_column_names() {
-    std::vector<std::string> all(names.begin(), names.end());
+    std::vector<std::string> all;
+    for (InputRow const& row : input_rows) all.emplace_back(row.name);
     for (OtherUnit const& other : other_units) all.emplace_back(other.name);
     return all;
 }
@@ -103,8 +87,8 @@ std::optional<std::string> Inputs::incomplete() const {
 }
 
 bool Inputs::plastic() const {
-    for (auto i = static_cast<std::size_t>(Input::static_friction); i < input_count; ++i) {
-        if (value_[i]) return false;
+    for (std::size_t i = 0; i < input_count; ++i) {
+        if (value_[i] && is_beyond_plastic(static_cast<Input>(i))) return false;
     }
     return true;
 }
@@ -149,15 +133,14 @@ PointMass Inputs::point() const {
 Conveyor Inputs::conveyor() const {
     Conveyor c{};
     c.point = point();
-    if (auto const v = get(Input::static_friction)) c.static_friction = *v;
-    if (auto const v = get(Input::restitution)) c.restitution = *v;
-    if (auto const v = get(Input::landing_friction)) c.landing_friction = *v;
-    if (auto const v = get(Input::air_drag)) c.air_drag = *v;
-    if (auto const v = get(Input::along_ratio)) c.along_ratio = *v;
-    if (auto const v = get(Input::along_phase_deg)) c.along_phase = *v * degree;
-    if (auto const v = get(Input::wall_friction)) c.wall_friction = *v;
-    if (auto const v = get(Input::wall_pressure_ratio)) c.wall_pressure_ratio = *v;
-    if (auto const v = get(Input::height_over_width)) c.height_over_width = *v;
+    for (std::size_t i = 0; i < input_count; ++i) {
+        if (!value_[i]) continue;
+        double const value = *value_[i] * input_rows[i].factor;
+        if (auto const* const member = std::get_if<double Conveyor::*>(&input_rows[i].member))
+            c.** member = value;
+        if (auto const* const member = std::get_if<std::optional<double> Conveyor::*>(&input_rows[i].member))
+            c.** member = value;
+    }
     return c;
 }
 

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace vibrotrough::theory {
@@ -23,22 +25,86 @@ enum class Input : std::size_t {
     frequency_hz,
     amplitude_m,
     stroke_mm,
-    static_friction,
     restitution,
+    slowest_rebound,
+    static_friction,
+    landing_friction,
     air_drag,
     along_ratio,
     along_phase_deg,
     wall_friction,
     wall_pressure_ratio,
     height_over_width,
-    landing_friction,
 };
-inline constexpr std::size_t input_count = 19;  ///< Number of inputs.
 
+/// The member of a Conveyor that an input gives; none of the inputs of Sloot & Kruyt's plastic point mass.
+using InputMember = std::variant<std::monostate, double Conveyor::*, std::optional<double> Conveyor::*>;
+
+/// What is known of an input. Range, example and meaning are those of its option on the command line, too.
+struct InputRow {
+    std::string_view name;          ///< equal to the enumerator
+    InputMember member = {};        ///< the other fields are only of inputs that have one
+    double least = 0, most = 0;     ///< range, in the unit of the input
+    std::string_view example = {};  ///< what to write, for example
+    std::string_view meaning = {};  ///< with its default value
+    double least_but_zero = 0;      ///< values between 0 and this one are refused
+    double factor = 1;              ///< makes a number one of the unit of the member
+};
+
+/// All inputs, in the order of the enumerators. The ranges of those without a member are in
+/// detail/ranges.cpp.
+inline constexpr std::array input_rows{
+    InputRow{"throw_number"},
+    InputRow{"machine_number"},
+    InputRow{"vibration_angle_deg"},
+    InputRow{"tan_vibration_angle"},
+    InputRow{"inclination_deg"},
+    InputRow{"tan_inclination"},
+    InputRow{"friction"},
+    InputRow{"frequency_hz"},
+    InputRow{"amplitude_m"},
+    InputRow{"stroke_mm"},
+    InputRow{"restitution", &Conveyor::restitution, 0, largest_restitution, "0.2",
+             "e, normal restitution coefficient, from 0 (plastic, default) to 0.95 (Eq. 23)"},
+    InputRow{"slowest_rebound", &Conveyor::slowest_rebound, 1e-9, 1, "1e-6",
+             "Rebounds slower than this count as contact, in omega r sin(beta); default: 1e-6"},
+    InputRow{"static_friction", &Conveyor::static_friction, 0, 1e6, "0.4",
+             "Static friction coefficient, at least --friction, which is then the kinetic one"},
+    InputRow{"landing_friction", &Conveyor::landing_friction, 0, 1e6, "0.1",
+             "Friction coefficient during a landing: the ratio of tangential to normal impulse that it can "
+             "reach; default: mu"},
+    InputRow{"air_drag", &Conveyor::air_drag, 0, 1000, "0.01",
+             "kappa: the drag force is m omega kappa times the velocity", 1e-8},
+    InputRow{"along_ratio", &Conveyor::along_ratio, -1000, 1000, "0.8",
+             "Elliptical drive: amplitude along the trough over r cos(beta)"},
+    InputRow{"along_phase_deg", &Conveyor::along_phase, -5729, 5729, "90",
+             "Elliptical drive: phase of the motion along the trough", 0, std::numbers::pi / 180},
+    InputRow{"wall_friction", &Conveyor::wall_friction, 0, 1000, "0.3",
+             "Friction coefficient of the layer on the side walls"},
+    InputRow{"wall_pressure_ratio", &Conveyor::wall_pressure_ratio, 0, 1, "0.5",
+             "Janssen's k, horizontal over vertical stress; default: 0.5"},
+    InputRow{"height_over_width", &Conveyor::height_over_width, 0, 1000, "0.2",
+             "Height of the layer over its width, for side-wall friction"},
+};
+inline constexpr std::size_t input_count = input_rows.size();  ///< Number of inputs.
+static_assert(input_count == static_cast<std::size_t>(Input::height_over_width) + 1);
+
+/// The row of an input.
+constexpr InputRow const& row_of(Input input) {
+    return input_rows[static_cast<std::size_t>(input)];
+}
 /// The name of an input in text, equal to the enumerator.
-std::string_view name_of(Input input);
+constexpr std::string_view name_of(Input input) {
+    return row_of(input).name;
+}
+/// Whether Sloot & Kruyt's plastic point mass does not have this input.
+constexpr bool is_beyond_plastic(Input input) {
+    return row_of(input).member.index() != 0;
+}
 /// The input of this name; nothing when there is none.
 std::optional<Input> input_named(std::string_view name);
+/// The value that a conveyor has for a row, in the unit of the input; nothing where it has none.
+std::optional<double> value_in(Conveyor const& conveyor, InputRow const& row);
 
 /// A column of numbers for an input, which may be in a unit of its own.
 struct InputColumn {

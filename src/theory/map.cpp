@@ -98,7 +98,7 @@ std::optional<Grid::Crossing> Grid::crossing(int i0, int j0, int i1, int j1, Poi
     double lo = 0, hi = 1;
     ModeCode beyond = b;
     bool const plastic =
-        fixed_.plastic() && map_.x.input < Input::static_friction && map_.y.input < Input::static_friction;
+        fixed_.plastic() && !is_beyond_plastic(map_.x.input) && !is_beyond_plastic(map_.y.input);
     for (int n = 0; n < (plastic ? bisections : bisections_general); ++n) {
         double const middle = (lo + hi) / 2;
         ModeCode const mode = solve(x0 + middle * dx, y0 + middle * dy, solver).mode;

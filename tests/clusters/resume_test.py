@@ -21,7 +21,7 @@ from trough_program import EndToEndTest, engines_in, fingerprint, processes_in, 
 KILLS = int(os.environ.get("VIBROTROUGH_KILLS", "100"))
 SEED = int(os.environ.get("VIBROTROUGH_SEED", "1"))
 # The fewest grains that settle, as soft as they may be, and the fewest cycles that may be asked for: a packing takes half a second.
-CHANGES = {"grains.youngs_modulus": "0.1 MPa", "measure.packings": 2, "measure.max_cycles": 20, "measure.half_width": 1.0}
+CHANGES = {"grains.youngs_modulus": "0.1 MPa", "measure.packings": 2, "measure.min_cycles": 20, "measure.max_cycles": 20, "measure.half_width": 1.0}
 SWEEP = {"layer.grains": [20, 24, 28, 32, 36, 40]}
 PACKINGS = 12
 # Of one campaign, so that several come to their end, however busy the machine is.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -28,10 +29,16 @@ SettingError const& find(NumericsBudget const& budget, NumericalSetting setting)
     throw std::out_of_range("no such setting");
 }
 
+/// The same with nothing known beforehand, so that what was measured stands alone.
+std::vector<prepare::VariedSetting> unexpected(std::vector<prepare::VariedSetting> settings) {
+    for (prepare::VariedSetting& one : settings) one.expected = std::numeric_limits<double>::infinity();
+    return settings;
+}
+
 // The table of validation/convergence, near enough: errors are default minus limit, their half-widths the
-// root of the squares of both; the numerical error is the root of the squares of the parts.
-TEST(NumericsBudget, AddsThePartsInSquares) {
-    NumericsBudget const budget = make_budget("c", 0.95, result(0.82, 0.006), varied,
+// root of the squares of both. Errors add up, half-widths add in squares: e = sum e_i, h^2 = sum h_i^2.
+TEST(NumericsBudget, AddsThePartsUp) {
+    NumericsBudget const budget = make_budget("c", 0.95, result(0.82, 0.006), unexpected(varied),
                                               {result(0.84, 0.008), result(0.829, 0.008), result(0.82, 0.008),
                                                result(0.79, 0.008), result(0.815, 0.008)});
     EXPECT_EQ(find(budget, NumericalSetting::youngs_modulus).error->verdict,
@@ -42,8 +49,22 @@ TEST(NumericsBudget, AddsThePartsInSquares) {
     EXPECT_NEAR(length.error->error, 0.03, 1e-15);
     EXPECT_NEAR(length.error->half_width, 0.01, 1e-15);  // 6-8-10 triangle
     EXPECT_NEAR(*length.variations[0].half_width, 0.01, 1e-15);
-    // Parts: 0.01 (modulus), 0.01 (time step, interval), 0.03 (length), 0.01 (width, interval).
-    EXPECT_NEAR(*budget.numerical_error(), std::sqrt(3 * 0.01 * 0.01 + 0.03 * 0.03), 1e-12);
+    EXPECT_NEAR(budget.total()->error, -0.009 + 0.0 + 0.03 + 0.005, 1e-15);
+    EXPECT_NEAR(budget.total()->half_width, 0.02, 1e-15);
+    EXPECT_NEAR(*budget.numerical_error(), 0.026 + 0.84 * 0.02, 1e-12);
+}
+
+// Four differences that are smaller than their wide intervals say little, and no more is counted than was
+// expected beforehand: 1/h^2 = sum over both of 1/h_i^2, so that the whole is narrower than either.
+TEST(NumericsBudget, IsNotWiderThanWhatIsExpected) {
+    auto const wide = [](double mean) { return result(mean, 0.012); };
+    NumericsBudget const budget = make_budget(
+        "c", 0.95, wide(0.82), varied, {wide(0.819), wide(0.817), wide(0.8175), wide(0.821), wide(0.818)});
+    double squares = 0;
+    for (prepare::VariedSetting const& one : varied) squares += one.expected * one.expected;
+    EXPECT_LT(budget.total()->half_width, std::sqrt(squares));
+    EXPECT_LT(budget.total()->half_width, std::sqrt(4 * 2) * 0.012);
+    EXPECT_EQ(budget.total()->verdict, measure::Convergence::not_resolved);
 }
 
 // A part that is not known is not zero: neither is the sum.
@@ -88,11 +109,11 @@ TEST(NumericsBudget, LeavesOutWhatMakesNoSense) {
         *std::find_if(varied.begin(), varied.end(),
                       [](auto const& one) { return one.setting == NumericalSetting::length; })};
     NumericsBudget const budget =
-        make_budget("c", 0.95, result(0.82, 0.003), only_length, {result(0.80, 0.004)});
+        make_budget("c", 0.95, result(0.82, 0.003), unexpected(only_length), {result(0.80, 0.004)});
     EXPECT_TRUE(budget.settings[0].is_left_out());
     EXPECT_FALSE(budget.settings[0].error);
     EXPECT_NE(budget.settings[0].message.find("side walls"), std::string::npos);
-    EXPECT_NEAR(*budget.numerical_error(), 0.02, 1e-15);
+    EXPECT_NEAR(*budget.numerical_error(), 0.02 + 0.84 * 0.005, 1e-15);  // 3-4-5 triangle
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
 """Draws the sample's campaign.h5 and looks into the SVG and the PNG.
 
-usage: check_figure.py PLOT_CAMPAIGN CAMPAIGN_FOLDER WORK_FOLDER
+usage: check_figure.py POSTPROCESS CAMPAIGN_FOLDER WORK_FOLDER
 """
 
 import pathlib
-import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
@@ -20,10 +19,6 @@ THEORY = """throw_number,vibration_angle_deg,velocity_efficiency
 """
 
 
-def plot(*arguments):
-    return subprocess.run([sys.executable, *map(str, arguments)], capture_output=True, text=True)
-
-
 def elements(svg, kind):
     return ElementTree.parse(svg).iter("{http://www.w3.org/2000/svg}" + kind)
 
@@ -36,13 +31,15 @@ def lines_in(svg, colour):
     return [path for path in elements(svg, "path") if colour in path.get("style", "") and "fill: none" in path.get("style")]
 
 
-def main(script, campaign, work):
-    work = pathlib.Path(work)
+def main(scripts, campaign, work):
+    sys.path.insert(0, scripts)
+    from figure_efficiency import draw_efficiency
+    from figure_style import Problem
+
+    campaign, work = pathlib.Path(campaign), pathlib.Path(work)
     (work / "theory.csv").write_text(THEORY, encoding="utf-8")
-    done = plot(script, campaign, "--theory", work / "theory.csv", "--output", work / "efficiency")
-    assert done.returncode == 0, done.stderr
     svg, png = work / "efficiency.svg", work / "efficiency.png"
-    assert done.stdout.split() == [str(svg), str(png)], done.stdout
+    assert draw_efficiency(campaign, work / "theory.csv", work / "efficiency") == [svg, png]
 
     shown = texts(svg)
     for wanted in ("throw number \u0393", "velocity efficiency \u03b7", "\u03b2 = 28.6\u00b0", "95 % interval", "not steady",
@@ -58,16 +55,19 @@ def main(script, campaign, work):
     (work / "compare.csv").write_text(
         "case,throw_number,vibration_angle_deg,inclination_deg,friction,efficiency_theory\n"
         "a,2.1,28.6479,0,0.23,0.55\nb,8.4,28.6479,0,0.23,0.61\n", encoding="utf-8")
-    done = plot(script, campaign, "--theory", work / "compare.csv", "--output", work / "deep" / "er" / "efficiency")
-    assert done.returncode == 0 and len(lines_in(work / "deep" / "er" / "efficiency.svg", "#0072b2")) > 0, done.stderr
+    draw_efficiency(campaign, work / "compare.csv", work / "deep" / "er" / "efficiency")
+    assert len(lines_in(work / "deep" / "er" / "efficiency.svg", "#0072b2")) > 0
 
-    # The same campaign gives the same file, and mistakes give one line and an exit code.
+    # The same campaign gives the same file, and mistakes are told.
     before = svg.read_bytes()
-    plot(script, campaign, "--theory", work / "theory.csv", "--output", work / "efficiency")
+    draw_efficiency(campaign, work / "theory.csv", work / "efficiency")
     assert svg.read_bytes() == before, "the figure is not reproducible"
-    for arguments in ([work / "none"], [campaign, "--theory", __file__]):
-        failed = plot(script, *arguments)
-        assert failed.returncode == 1 and failed.stderr.count("\n") == 1, failed.stderr
+    for folder, theory in ((work / "none", work / "theory.csv"), (campaign, pathlib.Path(__file__))):
+        try:
+            draw_efficiency(folder, theory, work / "wrong")
+        except Problem:
+            continue
+        raise AssertionError(f"{folder}, {theory} is drawn")
 
 
 if __name__ == "__main__":

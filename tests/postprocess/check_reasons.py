@@ -95,7 +95,7 @@ def check_what_is_not_known():
     same([sentence.split(":")[0] for sentence in told([CASE])["What known"]], ["Friction", "Rolling friction", "Depth and slope", "Box, stiffness and time step"])
     swept = '[sweep]\n"grains.rolling_friction" = [0, 0.1]\n"layer.height" = ["6 mm"]\n'
     assert told([CASE], campaign=swept)["What known"][1].startswith("Slope: not varied here, so that what it does"), told([CASE], campaign=swept)
-    whole = dict(CASE, friction_layer=0.28, numerical_error_case="a")
+    whole = dict(CASE, friction_layer=0.28, numerics_source="convergence")
     assert "What known" not in told([whole], campaign=swept + '"trough.inclination" = ["0 deg"]\n')
     assert "cannot rotate" in told([CASE], campaign='[grains]\nrotation = "blocked"\n')["What known"][1]
     assert "roll freely" in told([CASE], campaign="not TOML")["What known"][1]

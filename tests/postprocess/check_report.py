@@ -285,7 +285,7 @@ def check_stroke(scripts, folder):
     import numpy as np
 
     sys.path.insert(0, str(scripts))
-    from plot_campaign import Series
+    from figure_efficiency import Series
 
     columns = {"case": np.array(["a", "b", "c"]), "throw_number": np.array([1.4, 1.6, 2.0]), "vibration_angle": np.full(3, 0.5),
                "swept/trough.stroke": np.array([0.007, 0.008, 0.010]), "swept/trough.frequency": np.array([16.0, 16.0, 17.0])}

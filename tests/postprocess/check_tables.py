@@ -13,7 +13,6 @@ import figure_cycles  # noqa: E402
 import figure_residuals  # noqa: E402
 import figure_tables  # noqa: E402
 import figures  # noqa: E402
-import report  # noqa: E402
 
 
 class Source:
@@ -185,5 +184,6 @@ check_residence()
 check_speed_over_stages()
 for plot in (figure_tables.plot_screening, figure_tables.plot_partition, figure_tables.plot_segregation, figure_tables.plot_along, figure_tables.plot_residence, figure_tables.plot_stages):
     assert drawn(plot, {}) is None
-# What is drawn is in the report.
-assert sorted(figures.KINDS) == sorted(kind for kind, _ in report.FIGURES + report.CASE_FIGURES)
+# Each kind has a drawing function.
+for kind in figures.KINDS:
+    assert callable(figures.drawer(kind))

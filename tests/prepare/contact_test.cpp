@@ -25,7 +25,6 @@ constexpr double effective = 2.849003e6;
 TEST(Contact, PairsOfSpheres) {
     scenario::Grains const grains = with_engine().grains;
     double const mass = 1400 * pi / 6 * 27e-9;
-    EXPECT_NEAR(grain_on_trough(grains, 0.0015).mass, mass, 1e-12 * mass);
     EXPECT_NEAR(two_grains(grains, 0.0015).mass, mass / 2, 1e-12 * mass);
     EXPECT_DOUBLE_EQ(two_grains(grains, 0.0015).radius, 0.00075);
     EXPECT_NEAR(effective_modulus(grains), effective, 1);
@@ -74,6 +73,12 @@ TEST(Contact, ALinearImpactEndsWhenItsForceDoes) {
     EXPECT_NEAR(linear_duration(4, 1, damping_ratio(1)), pi / 2, 1e-12);
 }
 
+/// What a nominal coefficient of the engine really gives: the inverse of nominal_restitution().
+double real_restitution(double nominal) {
+    double const loss = std::log(nominal);
+    return restitution_of(-loss / std::hypot(pi, loss));
+}
+
 // Measured with the engine (an issue of this project): a sphere at 1 m/s comes back with 0.325 for a nominal
 // 0.2 and with 0.808 for 0.8, to three digits.
 TEST(Contact, NominalAndRealRestitution) {
@@ -97,15 +102,17 @@ double net_force(ContactPair const& pair, double w, double overlap) {
 
 // The pull-off force is the depth of the net force's minimum, looked for in steps of 1/1000 of its place.
 TEST(Contact, PullOffIsTheLeastNetForce) {
-    scenario::Grains const grains = with_engine().grains;
-    ContactPair const pair = grain_on_trough(grains, 0.0015);
+    scenario::Scenario s = with_engine();
+    ContactPair const pair = two_grains(s.grains, 0.0015);
     for (double const w : {1e4, 5e4, 2e5}) {
         double least = 0;
         double const place = std::pow(pi * w / effective, 2) * pair.radius;
         for (int i = 0; i < 3000; ++i) least = std::min(least, net_force(pair, w, place * i / 1000));
-        EXPECT_NEAR(pull_off_force(grains, w, pair), -least, 1e-5 * -least);
+        s.engine.cohesion = w;
+        EXPECT_NEAR(contact_of(s, 1)->pull_off_force(pair), -least, 1e-5 * -least);
     }
-    EXPECT_EQ(pull_off_force(grains, 0, pair), 0);
+    s.engine.cohesion = 0;
+    EXPECT_EQ(contact_of(s, 1)->pull_off_force(pair), 0);
 }
 
 // 4/3 E* sqrt(R*) d^(3/2) - 2 pi R* w d = F. E* has seven digits here, so that the two parts, which may be
@@ -113,7 +120,7 @@ TEST(Contact, PullOffIsTheLeastNetForce) {
 TEST(Contact, OverlapBalancesSpringAttractionAndForce) {
     for (char const* cohesion : {"0 J/m3", "20 kJ/m3", "200 kJ/m3"}) {
         scenario::Scenario const s = with_engine(std::string("cohesion = \"") + cohesion + "\"\n");
-        ContactPair const pair = grain_on_trough(s.grains, 0.0015);
+        ContactPair const pair = two_grains(s.grains, 0.0015);
         for (double const force : {0.0, 1e-4, 1e-2}) {
             double const overlap = contact_of(s, 1)->overlap_under(pair, force);
             double const part = force + 2 * pi * pair.radius * s.engine.cohesion * overlap;
@@ -122,8 +129,8 @@ TEST(Contact, OverlapBalancesSpringAttractionAndForce) {
     }
     // Hooke: (k - 2 pi R* w) d = F; no balance when the attraction is stronger than the spring.
     scenario::Scenario s = with_engine("contact = \"hooke\"\ncohesion = \"20 kJ/m3\"\n");
-    ContactPair const pair = grain_on_trough(s.grains, 0.0015);
-    double const net = hooke_stiffness(s.grains, pair, 1) - 2 * pi * 0.0015 * 2e4;
+    ContactPair const pair = two_grains(s.grains, 0.0015);
+    double const net = hooke_stiffness(s.grains, pair, 1) - 2 * pi * pair.radius * 2e4;
     EXPECT_NEAR(contact_of(s, 1)->overlap_under(pair, 1e-3), 1e-3 / net, 1e-12);
     s.engine.cohesion = 1e8;
     EXPECT_TRUE(std::isinf(contact_of(s, 1)->overlap_under(pair, 1e-3)));
@@ -132,10 +139,10 @@ TEST(Contact, OverlapBalancesSpringAttractionAndForce) {
 // m v^2 / 2 + pi R* w d^2 = 8/15 E* sqrt(R*) d^(5/2).
 TEST(Contact, AttractionDeepensAnImpact) {
     scenario::Scenario const s = with_engine("cohesion = \"100 kJ/m3\"\n");
-    ContactPair const pair = grain_on_trough(s.grains, 0.0015);
+    ContactPair const pair = two_grains(s.grains, 0.0015);
     double const d = contact_of(s, 0.7)->overlap_of_impact(pair, 0.7), energy = pair.mass * 0.49 / 2;
-    EXPECT_NEAR(8.0 / 15 * effective * std::sqrt(0.0015) * std::pow(d, 2.5),
-                energy + pi * 0.0015 * 1e5 * d * d, 1e-6 * energy);
+    EXPECT_NEAR(8.0 / 15 * effective * std::sqrt(pair.radius) * std::pow(d, 2.5),
+                energy + pi * pair.radius * 1e5 * d * d, 1e-6 * energy);
     EXPECT_GT(d, contact_of(with_engine(), 0.7)->overlap_of_impact(pair, 0.7));
     // At the speed for which it was chosen, the spring of Hooke is pressed as far as Hertz.
     EXPECT_NEAR(contact_of(with_engine("contact = \"hooke\"\n"), 0.7)->overlap_of_impact(pair, 0.7),

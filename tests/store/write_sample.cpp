@@ -130,7 +130,7 @@ int main(int argc, char** argv) {
         write_result(folder / "result.h5", sample_mixture(true));
         write_result(folder / "kept.h5", sample_mixture(false));
         CaseRecord studied = sample_record();
-        studied.studied = {0.034, "fedcba9876543210"};
+        studied.studied_error = 0.034;
         std::vector const cases{studied, sample_record("fedcba9876543210", 27.0)};
         auto const observables = sample_observables(studied);
         write_campaign(folder / "campaign.h5", {.campaign = "sample",

@@ -1,7 +1,5 @@
 #!/usr/bin/python3
-import json
 import pathlib
-import subprocess
 import sys
 import tomllib
 from typing import Any
@@ -12,6 +10,7 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 import numpy as np  # noqa: E402
 
 import figure_style  # noqa: E402
+import plant  # noqa: E402
 from campaign_program import campaign_text, run_campaign  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
@@ -50,12 +49,7 @@ def task(number: int) -> dict[str, Any]:
 
 def design(run: ValidationCase, options: dict[str, Any], flow: float, *words: str) -> Any:
     """What `vibrotrough design` answers for a mass flow in t/h."""
-    given = [word for name, value in options.items() if name.startswith("--") for word in (name, value)]
-    command = [run.program, "design", "--mass-flow", f"{flow:.4g} t/h", *given, "--json", *words]
-    answer = subprocess.run(command, capture_output=True, text=True, check=False)
-    if answer.returncode not in (0, 1):
-        raise SystemExit(f"{' '.join(command)}\n{answer.stderr}")
-    return json.loads(answer.stdout)
+    return plant.design(run.program, options, flow, *words)[0]
 
 
 def simulate_again(run: ValidationCase, number: int, campaign: pathlib.Path) -> tuple[float, float]:
@@ -92,7 +86,21 @@ def judge(run: ValidationCase) -> None:
     reached = sum(asked(run) * float(row["again_t_per_h"]) >= float(row["wanted_t_per_h"]) for row in verified)
     run.between(f"machines of {TASKS} that carry their mass flow when simulated once more", reached, REACHED, TASKS, because="each was promised with 95 %")
     run.between("core-hours of the dearest verification", max(float(row["core_hours"]) for row in rows), 0, 1, because="the budget that was given")
+    judge_plant(run)
     judge_engineer(run)
+
+
+def judge_plant(run: ValidationCase) -> None:
+    """Machines as plants ask for them: what was promised with a probability is what the layers carry."""
+    rows = [row for row in run.table("plant.csv") if row["probability"]]
+    low, high, simulated, width = (
+        np.array([float(row[f"{name}_t_per_h"]) for row in rows]) for name in ("promised_low", "promised_high", "simulated", "simulated_half_width")
+    )
+    simulated = asked(run) * simulated
+    middle, half = (low + high) / 2, (high - low) / 2
+    held = int(np.sum(np.abs(simulated - middle) <= np.hypot(half, width)))
+    run.between(f"plants: layers that carry what was promised, of {len(rows)}", held, plant.least_held(len(rows)), len(rows), because="95 % intervals: the least count of a binomial's 95 %")
+    run.between("plants: mass flow over the least that was promised", float(np.min((simulated + width) / low)), 1, 2, because="no promise is confidently wrong")
 
 
 def judge_engineer(run: ValidationCase) -> None:
@@ -133,6 +141,7 @@ def main() -> None:
     run = ValidationCase(FOLDER)
     if run.long:
         run.write_table("tasks.csv", COLUMNS, [verify(run, number) for number in range(1 if run.quick else TASKS)])
+        run.write_table("plant.csv", plant.COLUMNS, [plant.verify(run.program, run.runs, number, run.jobs) for number in range(2 if run.quick else plant.TASKS)])
     judge(run)
     if not run.control:
         draw(run)

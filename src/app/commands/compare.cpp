@@ -82,11 +82,9 @@ void print_table(std::vector<compare::Row> const& rows, std::span<compare::Colum
 void print_budget(std::vector<compare::Row> const& rows, std::span<compare::Column const> columns,
                   CompareArguments const& options) {
     fmt::print("{}", compare::to_table(rows, style_for(options.colour), compare::budget_columns(columns)));
-    if (std::ranges::any_of(rows, compare::is_borrowed))
-        fmt::print("* of the nearest case that was studied, see numerical_error_case in --csv\n");
-    if (std::ranges::any_of(rows, compare::is_bound)) {
+    if (std::ranges::any_of(rows, compare::is_expected)) {
         fmt::print(
-            "< a bound that is known beforehand; 'vibrotrough convergence {}' measures the error of a case\n",
+            "* by what other layers showed; 'vibrotrough convergence {}' measures the error of a case\n",
             core::shell_word(options.folder));
     }
 }

@@ -62,21 +62,22 @@ campaign::Plan write_study(campaign::Plan const& original,
     return campaign::make_plan(scenario::read_campaign(folder / "study.toml"), folder, engine_version);
 }
 
+/// "found" when an error is larger than its interval, else what it is below.
+std::string verdict_of(measure::NumericalError const& error) {
+    if (std::abs(error.error) > error.half_width) return "found";
+    return fmt::format("below {:.4f}", error.bound());
+}
+
 std::string describe(evaluate::SettingError const& setting) {
     if (!setting.error)
         return fmt::format("{}: {}", setting.is_left_out() ? "left out" : "unknown", setting.message);
-    measure::NumericalError const& found = *setting.error;
-    std::string const values = fmt::format("{:+.4f} +- {:.4f}", found.error, found.half_width);
-    switch (found.verdict) {
-        case measure::Convergence::extrapolated:
-            return values + "  extrapolated to the limit";
-        case measure::Convergence::resolved:
-            return fmt::format("{}  against {:.3g} {}", values, setting.variations.back().value,
-                               unit_of(setting.setting) == "1" ? "" : unit_of(setting.setting));
-        case measure::Convergence::not_resolved:
-            break;
-    }
-    return fmt::format("{}  not resolved: within {:.4f}", values, found.half_width);
+    measure::NumericalError const &measured = *setting.error, known = *setting.known_error();
+    std::string text = fmt::format("{:+.4f} +- {:.4f}", measured.error, measured.half_width);
+    if (measured.verdict == measure::Convergence::extrapolated) text += ", extrapolated to the limit";
+    if (known.half_width < measured.half_width)
+        text += fmt::format("; expected 0 +- {:.4f}; together {:+.4f} +- {:.4f}", setting.expected,
+                            known.error, known.half_width);
+    return text + ": " + verdict_of(known);
 }
 
 void print(evaluate::NumericsBudget const& budget) {
@@ -84,31 +85,14 @@ void print(evaluate::NumericsBudget const& budget) {
     if (budget.standard.mean) fmt::print(": efficiency {:.4f}", *budget.standard.mean);
     if (budget.standard.half_width) fmt::print(" +- {:.4f}", *budget.standard.half_width);
     fmt::print("\n");
-    for (evaluate::SettingError const& setting : budget.settings) {
-        std::string const text = describe(setting);
-        fmt::print("  {:<24} {}\n", title_of(setting.setting),
-                   text.substr(0, text.find_last_not_of(' ') + 1));
-    }
-    if (auto const error = budget.numerical_error()) {
-        fmt::print("  {:<24} {:.4f}\n", "numerical error", *error);
+    for (evaluate::SettingError const& setting : budget.settings)
+        fmt::print("  {:<24} {}\n", title_of(setting.setting), describe(setting));
+    if (auto const total = budget.total()) {
+        fmt::print("  {:<24} {:+.4f} +- {:.4f}: {}; counted with {:.4f}\n", "all together", total->error,
+                   total->half_width, verdict_of(*total), total->bound());
     } else {
-        fmt::print("  {:<24} unknown, because a part of it is\n", "numerical error");
+        fmt::print("  {:<24} unknown, because a part of it is\n", "all together");
     }
-}
-
-/// What to do about parts that are no more than the bounds of their own intervals.
-void print_advice(std::vector<evaluate::NumericsBudget> const& budgets) {
-    std::ptrdiff_t open = 0;
-    for (evaluate::NumericsBudget const& budget : budgets) {
-        open += std::ranges::count_if(budget.settings, [](evaluate::SettingError const& one) {
-            return one.error && one.error->verdict == measure::Convergence::not_resolved;
-        });
-    }
-    if (open > 0)
-        fmt::print(
-            "{} part{} not resolved and counted with the half-width of their intervals; a smaller "
-            "--half-width narrows them\n",
-            open, open == 1 ? " is" : "s are");
 }
 
 int run_convergence(ConvergenceArguments const& options) {
@@ -139,7 +123,6 @@ int run_convergence(ConvergenceArguments const& options) {
     fmt::print("written to {}; see it{} with: vibrotrough compare {} --budget\n",
                campaign::numerics_file(original.folder).string(), was_run ? "" : " after 'vibrotrough run'",
                core::shell_word(original.folder));
-    print_advice(budgets);
     bool const all =
         std::ranges::all_of(budgets, [](auto const& one) { return one.numerical_error().has_value(); });
     return all ? all_well : some_cases_failed;
@@ -168,23 +151,26 @@ nearer to its limit, one at a time, and adds the differences up to an error budg
     command
         ->add_option("--half-width", options->half_width,
                      "Half-width of the interval that is wanted of each variation; default: "
-                     "measure.half_width of the case. No error below about 1.4 times this is resolved")
+                     "measure.half_width of the case. No error below about 1.4 times this is seen")
         ->check(CLI::Range(1e-5, 1.0))
         ->type_name("H");
     command->footer(
-        R"(Each case is simulated with its own settings, with Young's modulus times 4 and 16, with half the
+        R"(Each case is simulated with its own settings (unless the campaign has a result that is narrow enough), with Young's modulus times 4 and 16, with half the
 time step, and in a box of twice the length and of twice the width. This costs about 13 times as much as the case itself.
 What makes no sense is left out and named: the width between side walls, and all of these for a rigid block, whose
 contact is made 2 and 4 times stiffer instead. The simulations are a campaign of their own in DIR/convergence.
 
 The error of a setting is the default's value minus that of the limit, with the intervals of both combined. Where
 the order of the error is known (Young's modulus: overlaps go with E^(-2/5)), the limit is extrapolated if the values rise or
-fall significantly throughout and lie on one line. Otherwise the finest setting stands for the limit. An error that is
-smaller than its interval is not resolved, and the interval bounds it. The numerical error of the case is the root of the
-sum of the squares of these parts.
+fall significantly throughout and lie on one line. Otherwise the finest setting stands for the limit.
+
+What other layers showed of each error (0 +- its half-width, as 'vibrotrough check' has it) is known beforehand. Both are
+weighted by their inverse squares, unless the measurement contradicts it: then it stands alone. An error is found when it
+is larger than its interval; else the line says what it is below. The errors of all settings add up, their half-widths
+as the root of the sum of their squares.
 
 The budget is written to DIR/numerics.json. 'vibrotrough compare DIR --budget', the report and campaign.h5 then show
-the numerical error beside the statistical one. Cases that were not studied borrow it from the nearest case that was.
+this numerical error beside the statistical one. Cases that were not studied keep what is known beforehand.
 
 Ctrl-C stops the run cleanly, and the same command continues it.
 

@@ -94,7 +94,7 @@ void add_friction_test(CLI::App& program, int& exit_code) {
         "friction-test", R"(Measure the friction coefficient of a campaign's layers as a whole
 
 Each layer is shaken along a level trough. Its friction coefficient is the one with which a point mass slides as far
-as the layer does (Sloot & Kruyt 1996, section 6). It is lower than the friction coefficient between a grain and the
+as the layer does (Sloot & Kruyt 1996, section 3.5). It is lower than the friction coefficient between a grain and the
 trough, because grains roll and layers shear.)");
     add_campaign_file(*command, options->campaign_file);
     command

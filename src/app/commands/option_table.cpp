@@ -11,12 +11,13 @@ namespace {
 constexpr double any_positive = 1e-12;
 
 /// The option of a key of the campaign file.
-OptionRow of_key(char const* name, char const* path, char const* input = nullptr, double of_unit = 1) {
+OptionRow of_key(char const* name, char const* path, std::optional<theory::Input> input = {},
+                 double of_unit = 1) {
     scenario::Key const& key = *scenario::find_key(path);
     std::string example(key.example);
     std::erase(example, '"');
     OptionRow row{name, std::string(key.unit), key.least, key.most, example, std::string(key.meaning)};
-    if (input != nullptr) row.of_theory = input;
+    row.of_theory = input;
     row.of_unit = of_unit;
     return row;
 }
@@ -34,29 +35,37 @@ OptionRow whole(OptionRow row) {
     return row;
 }
 
-/// A plain number that the theory has beyond the keys of the campaign file.
-OptionRow of_theory(char const* name, double least, double most, char const* example, char const* meaning) {
-    OptionRow row{name, "", least, most, example, meaning};
-    std::string input = std::string(name).substr(2);
-    std::ranges::replace(input, '-', '_');
-    row.of_theory = input;
-    return row;
+/// The plain numbers that the theory has beyond the plastic point mass.
+std::vector<OptionRow> rows_of_theory() {
+    std::vector<OptionRow> rows;
+    for (std::size_t i = 0; i < theory::input_count; ++i) {
+        auto const input = static_cast<theory::Input>(i);
+        if (!is_beyond_plastic(input)) continue;
+        theory::InputRow const& row = row_of(input);
+        std::string name = "--" + std::string(row.name);
+        std::ranges::replace(name, '_', '-');
+        rows.push_back({name, "", row.least, row.most, std::string(row.example), std::string(row.meaning)});
+        rows.back().of_theory = input;
+    }
+    auto const phase = std::ranges::find(rows, theory::Input::along_phase_deg, &OptionRow::of_theory);
+    *phase = of_key("--along-phase", "trough.along_phase", phase->of_theory, degree);
+    return rows;
 }
 
-/// What the campaign file has, too, and what the theory has beyond it, which goes further than decks do.
+/// What the campaign file has, too; the theory goes further than decks do.
 std::vector<OptionRow> rows_of_motions() {
+    using theory::Input;
     return {
-        within(1e-3, 100, of_key("--throw-number", "trough.throw_number", "throw_number")),
-        of_key("--machine-number", "trough.machine_number", "machine_number"),
+        within(1e-3, 100, of_key("--throw-number", "trough.throw_number", Input::throw_number)),
+        of_key("--machine-number", "trough.machine_number", Input::machine_number),
         of_key("--vibration-angle", "trough.vibration_angle"),
-        of_key("--tan-vibration-angle", "trough.tan_vibration_angle", "tan_vibration_angle"),
+        of_key("--tan-vibration-angle", "trough.tan_vibration_angle", Input::tan_vibration_angle),
         of_key("--inclination", "trough.inclination"),
-        of_key("--tan-inclination", "trough.tan_inclination", "tan_inclination"),
-        of_key("--friction", "trough.friction", "friction"),
+        of_key("--tan-inclination", "trough.tan_inclination", Input::tan_inclination),
+        of_key("--friction", "trough.friction", Input::friction),
         of_key("--frequency", "trough.frequency"),
-        of_key("--amplitude", "trough.amplitude", "amplitude_m"),
+        of_key("--amplitude", "trough.amplitude", Input::amplitude_m),
         of_key("--stroke", "trough.stroke"),
-        of_key("--along-phase", "trough.along_phase", "along_phase_deg", degree),
         of_key("--width", "trough.width"),
         of_key("--bulk-density", "grains.bulk_density"),
         of_key("--grain-diameter", "grains.diameter"),
@@ -65,23 +74,6 @@ std::vector<OptionRow> rows_of_motions() {
         of_key("--layer-height", "layer.height"),
         of_key("--layer-width", "layer.width"),
         {"--gravity", "m/s2", 1e-3, 1e3, "9.81 m/s2", "Default: \"9.81 m/s2\""},
-        of_theory("--restitution", 0, 0.95, "0.2",
-                  "e, normal restitution coefficient, from 0 (plastic, default) to 0.95 (Eq. 23)"),
-        {"--slowest-rebound", "", 1e-9, 1, "1e-6",
-         "Rebounds slower than this count as contact, in omega r sin(beta); default: 1e-6"},
-        of_theory("--static-friction", 0, 5, "0.4",
-                  "Static friction coefficient, at least --friction, which is then the kinetic one"),
-        of_theory("--landing-friction", 0, 5, "0.1",
-                  "Friction coefficient during a landing: the ratio of tangential to normal impulse that it "
-                  "can reach; default: mu"),
-        of_theory("--air-drag", 0, 1000, "0.01", "kappa: the drag force is m omega kappa times the velocity"),
-        of_theory("--along-ratio", -1000, 1000, "0.8",
-                  "Elliptical drive: amplitude along the trough over r cos(beta)"),
-        of_theory("--wall-friction", 0, 1000, "0.3", "Friction coefficient of the layer on the side walls"),
-        of_theory("--wall-pressure-ratio", 0, 1, "0.5",
-                  "Janssen's k, horizontal over vertical stress; default: 0.5"),
-        of_theory("--height-over-width", 0, 1000, "0.2",
-                  "Height of the layer over its width, for side-wall friction"),
         {"--max-relative-displacement", "", 1e-9, 1000, "1.5",
          "Measured slip from peak to peak, in amplitudes r, from 0 to 2"},
     };
@@ -157,7 +149,7 @@ std::vector<OptionRow> other_rows() {
 std::vector<OptionRow> const& table() {
     static std::vector<OptionRow> const rows = [] {
         std::vector<OptionRow> all;
-        for (auto const& part : {rows_of_motions(), rows_of_designs(), other_rows()})
+        for (auto const& part : {rows_of_motions(), rows_of_theory(), rows_of_designs(), other_rows()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();
@@ -197,6 +189,12 @@ void QuantityOptions::set_if_missing(std::string const& name, std::string const&
     if (!has(name)) set(name, text);
 }
 
+void QuantityOptions::add_beyond_plastic(CLI::App& command, std::string const& group) {
+    for (OptionRow const& row : table()) {
+        if (row.of_theory && is_beyond_plastic(*row.of_theory)) add_to(command, {{row.name.c_str()}}, group);
+    }
+}
+
 std::optional<double> QuantityOptions::value(std::string const& name) const {
     return has(name) ? std::optional(read_option(name, *text(name))) : std::nullopt;
 }
@@ -213,8 +211,7 @@ std::optional<learn::Uncertain> QuantityOptions::uncertain(std::string const& na
 void QuantityOptions::set_inputs(theory::Inputs& inputs) const {
     for (auto const& [name, text] : texts_) {
         OptionRow const& row = option_row(name);
-        if (text && row.of_theory)
-            inputs.set(*theory::input_named(*row.of_theory), read_option(name, *text) / row.of_unit);
+        if (text && row.of_theory) inputs.set(*row.of_theory, read_option(name, *text) / row.of_unit);
     }
 }
 

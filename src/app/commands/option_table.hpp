@@ -29,14 +29,14 @@ using Text = std::optional<std::string>;
 
 /// A quantity that is an option.
 struct OptionRow {
-    std::string name;       ///< "--friction"
-    std::string unit;       ///< SI unit, for udunits2; empty of a plain number
-    double least, most;     ///< smallest and largest allowed value, in `unit`
-    std::string example;    ///< what to write, without quotes
-    std::string meaning;    ///< the help of the option
-    bool is_whole = false;  ///< only whole numbers
-    Text of_theory = {};    ///< name of the input of the theory that it is; none of other quantities
-    double of_unit = 1;     ///< the unit of that input in `unit`
+    std::string name;                             ///< "--friction"
+    std::string unit;                             ///< SI unit, for udunits2; empty of a plain number
+    double least, most;                           ///< smallest and largest allowed value, in `unit`
+    std::string example;                          ///< what to write, without quotes
+    std::string meaning;                          ///< the help of the option
+    bool is_whole = false;                        ///< only whole numbers
+    std::optional<theory::Input> of_theory = {};  ///< that it is; none of other quantities
+    double of_unit = 1;                           ///< the unit of that input in `unit`
 
     /// What a message says to write: '--inclination "-3 deg"'.
     std::string written_example() const;
@@ -68,6 +68,8 @@ class QuantityOptions {
 
     /// Declares options. @param group  their heading in the help; empty: the usual one
     void add_to(CLI::App& command, std::initializer_list<Wanted> wanted, std::string const& group = "");
+    /// Declares all inputs of the theory that Sloot & Kruyt's plastic point mass does not have.
+    void add_beyond_plastic(CLI::App& command, std::string const& group);
     /// What the user wrote for an option that was declared.
     Text const& text(std::string const& name) const { return texts_.at(name); }
     /// Whether any was given.

@@ -1,5 +1,6 @@
 #include "app/campaign_run.hpp"
 #include "app/commands/command.hpp"
+#include "app/figure_kinds.hpp"
 #include "app/python.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -177,24 +178,21 @@ std::shared_ptr<PlotArguments> add_common(CLI::App& command) {
     return options;
 }
 
-constexpr char const* plot_help = R"(Kinds of figures:
-  efficiency  velocity efficiency over throw number or swept key: DEM with error bars and models
-  speed       conveying speed over the same, beside the theory, the rolling-layer law and the atlas
-  mass_flow   mass flow likewise
-  residuals   DEM minus theory
-  budget      statistical and numerical error of the cases that 'vibrotrough convergence' studied
-  cycles      for each case: velocity efficiency of every cycle, with the discarded start-up shaded
-  portraits   for each case: layer and point mass in phase space
-  spin        for each case: spin and slip of the floor grains, and friction, over the cycle
-  profiles    for each case: velocity over height
-  screening   for each batch on a screen: the efficiency over the length of the screen
-  partition   for each case with a screen: the share of each size that stays
-  segregation for each mixture: its segregation index over time, or along an open trough
-  along       for each open trough: depth and speed along it
-  residence   for each open trough: the distribution of the residence times
-  stages      for each case with stages: the speed over their cycles
+/// The kinds of figures, and what the help says of them.
+std::pair<std::vector<std::string>, std::string> known_figures() {
+    std::vector<std::string> kinds;
+    std::string help = "Kinds of figures:\n";
+    for (Json const& row : Json::parse(figure_kinds.front().second)) {
+        kinds.push_back(row["kind"]);
+        help +=
+            fmt::format("  {:<11} {}{}\n", kinds.back(), row["file"] == "result.h5" ? "for each case: " : "",
+                        row["title"].get<std::string>());
+    }
+    return {kinds, help + "\n"};
+}
 
-With --x and --y, one figure shows any column of 'vibrotrough compare' over any other, with its interval, and for
+constexpr char const* plot_help =
+    R"(With --x and --y, one figure shows any column of 'vibrotrough compare' over any other, with its interval, and for
 speed, efficiency and mass flow what the theory and the rolling-layer law say of the same cases. A column is named as in
 'compare --csv', without its unit if you like, or as its key in the campaign file.
 
@@ -214,13 +212,10 @@ void add_plot(CLI::App& program, int& exit_code) {
     CLI::App* const command =
         program.add_subcommand("plot", "Draw the figures of a campaign as SVG and PNG, or as PDF");
     auto const options = add_common(*command);
+    auto const [kinds, kinds_help] = known_figures();
     command
         ->add_option("--only", options->only, "Draw only this kind of figure; repeat the option for several")
-        // The kinds are named below, with what each shows.
-        ->check(CLI::IsMember({"efficiency", "speed", "mass_flow", "residuals", "budget", "cycles",
-                               "portraits", "spin", "profiles", "screening", "partition", "segregation",
-                               "along", "residence", "stages"})
-                    .description(""))
+        ->check(CLI::IsMember(kinds).description(""))  // they are named below, with what each shows
         ->type_name("KIND")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -252,7 +247,7 @@ void add_plot(CLI::App& program, int& exit_code) {
              "A style sheet of matplotlib, for fonts, sizes of letters, axes, ticks and resolution. "
              "Colours and marks that tell series apart stay",
              "FILE");
-    command->footer(plot_help);
+    command->footer(kinds_help + plot_help);
     command->callback([options, &exit_code] { exit_code = run_plot(*options); });
 }
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -61,15 +60,20 @@ Json describe(evaluate::SettingError const& setting) {
               {"default", setting.value},
               {"order", core::note::known_or_null(setting.order)},
               {"verdict", verdict},
+              {"measured_error", nullptr},
+              {"measured_half_width", nullptr},
               {"error", nullptr},
               {"error_half_width", nullptr},
               {"bound", setting.is_left_out() ? Json(0.0) : Json(nullptr)},
               {"message", setting.message},
               {"variations", std::move(variations)}};
-    if (setting.error) {
-        json["error"] = setting.error->error;
-        json["error_half_width"] = setting.error->half_width;
-        json["bound"] = setting.error->bound();
+    json["expected_half_width"] = std::isinf(setting.expected) ? Json(nullptr) : Json(setting.expected);
+    if (auto const known = setting.known_error()) {
+        json["measured_error"] = setting.error->error;
+        json["measured_half_width"] = setting.error->half_width;
+        json["error"] = known->error;
+        json["error_half_width"] = known->half_width;
+        json["bound"] = known->bound();
     }
     return json;
 }
@@ -98,49 +102,6 @@ Json read_list(fs::path const& campaign_folder) {
     }
 }
 
-/// Distances between the cases of a plan in the keys in which they differ.
-class CaseSpace {
-  public:
-    explicit CaseSpace(Plan const& plan) {
-        for (PlannedCase const& one : plan.cases) {
-            keys_.push_back(keys_of(one.scenario()));
-            for (auto const& [name, value] : keys_.back()) {
-                auto const* const number = std::get_if<double>(&value);
-                auto& [least, most] = ranges_[name];
-                least = std::min(least, number != nullptr ? *number : least);
-                most = std::max(most, number != nullptr ? *number : most);
-            }
-        }
-    }
-
-    double distance(std::size_t a, std::size_t b) const {
-        double squares = 0;
-        for (auto const& [name, range] : ranges_) {
-            auto const one = keys_[a].find(name), other = keys_[b].find(name);
-            bool const has_one = one != keys_[a].end(), has_other = other != keys_[b].end();
-            if (has_one && has_other) squares += std::pow(difference(one->second, other->second, range), 2);
-            if (has_one != has_other) squares += 1;
-        }
-        return std::sqrt(squares);
-    }
-
-  private:
-    struct Range {
-        double least = std::numeric_limits<double>::infinity(), most = -least;
-    };
-
-    static double difference(scenario::Content const& one, scenario::Content const& other,
-                             Range const& range) {
-        if (one == other) return 0;
-        auto const* const a = std::get_if<double>(&one);
-        auto const* const b = std::get_if<double>(&other);
-        return a && b && range.most > range.least ? (*a - *b) / (range.most - range.least) : 1;
-    }
-
-    std::vector<scenario::WrittenKeys> keys_;
-    std::map<std::string_view, Range> ranges_;
-};
-
 /// The scenario as it comes back from the study's campaign file, where the number of grains may be rounded.
 scenario::Scenario as_read_back(scenario::Scenario const& scenario) {
     return scenario::parse_campaign(to_toml(scenario), "study", {{}, named_files(scenario)}).cases.front();
@@ -149,7 +110,8 @@ scenario::Scenario as_read_back(scenario::Scenario const& scenario) {
 }  // namespace
 
 std::vector<scenario::Scenario> NumericsStudy::scenarios() const {
-    std::vector<scenario::Scenario> all{standard.scenario};
+    std::vector<scenario::Scenario> all;
+    if (!known) all.push_back(standard.scenario);
     for (prepare::VariedSetting const& setting : settings) {
         for (prepare::NumericalVariation const& one : setting.variations) all.push_back(one.scenario);
     }
@@ -161,7 +123,13 @@ NumericsStudy plan_study(PlannedCase const& planned, std::optional<double> half_
     require_steady_drive(scenario, "convergence");
     scenario.output.frames_per_cycle = 0;
     if (half_width) scenario.measure.half_width = *half_width;
-    NumericsStudy study{planned.id, prepare::prepare_case(as_read_back(scenario)), {}};
+    NumericsStudy study{planned.id, prepare::prepare_case(as_read_back(scenario)), {}, {}};
+    auto const record = read_whole_result(planned);
+    if (record && record->estimate.mean && record->outcome != core::Outcome::not_steady) {
+        auto const& estimate = record->estimate;
+        if (estimate.half_width && *estimate.half_width <= scenario.measure.half_width)
+            study.known = evaluate::StudyResult{planned.id, estimate.mean, estimate.half_width, ""};
+    }
     study.settings = vary_numerics(study.standard);
     for (prepare::VariedSetting& setting : study.settings) {
         for (prepare::NumericalVariation& one : setting.variations) one.scenario = as_read_back(one.scenario);
@@ -184,10 +152,10 @@ std::vector<evaluate::NumericsBudget> measure_numerics(Plan const& plan,
     for (NumericsStudy const& study : studies) {
         std::vector<evaluate::StudyResult> results;
         for (scenario::Scenario const& one : study.scenarios()) results.push_back(result_of(plan, one));
-        evaluate::StudyResult const standard = results.front();
-        results.erase(results.begin());
+        if (study.known) results.insert(results.begin(), *study.known);
         budgets.push_back(evaluate::make_budget(study.case_id, study.standard.scenario.measure.confidence,
-                                                standard, study.settings, results));
+                                                results.front(), study.settings,
+                                                {results.begin() + 1, results.end()}));
     }
     return budgets;
 }
@@ -209,26 +177,13 @@ void write_numerics(fs::path const& campaign_folder, std::vector<evaluate::Numer
     core::write_file_atomically(numerics_file(campaign_folder), core::note::sealed(json));
 }
 
-std::map<std::string, store::CaseNumerics> read_case_numerics(Plan const& plan) {
+std::map<std::string, double> read_case_numerics(fs::path const& campaign_folder) {
     std::map<std::string, double> studied;
-    for (Json const& one : read_list(plan.folder)) {
+    for (Json const& one : read_list(campaign_folder)) {
         if (Json const& error = one.at("numerical_error"); !error.is_null())
             studied[one.at("case")] = error.get<double>();
     }
-    std::map<std::string, store::CaseNumerics> found;
-    std::vector<std::size_t> sources;
-    for (std::size_t i = 0; i < plan.cases.size(); ++i) {
-        if (studied.contains(plan.cases[i].id)) sources.push_back(i);
-    }
-    if (sources.empty()) return found;
-    CaseSpace const space(plan);
-    for (std::size_t i = 0; i < plan.cases.size(); ++i) {
-        std::size_t const nearest = *std::ranges::min_element(
-            sources, {}, [&](std::size_t other) { return space.distance(i, other); });
-        std::string const& source = plan.cases[nearest].id;
-        found[plan.cases[i].id] = {studied.at(source), source};
-    }
-    return found;
+    return studied;
 }
 
 }  // namespace vibrotrough::campaign

@@ -17,8 +17,11 @@ struct NumericsStudy {
     std::string case_id;                           ///< of the campaign's case
     prepare::PreparedCase standard;                ///< the case with its own settings, as it is studied
     std::vector<prepare::VariedSetting> settings;  ///< and their variations
+    /// Of the case itself, when the campaign has simulated it well enough: it is then not simulated again.
+    std::optional<evaluate::StudyResult> known;
 
-    /// The case and all its variations, in the order of the settings.
+    /// What is to be simulated: the case, unless its result is known, and all its variations, in the order of
+    /// the settings.
     std::vector<scenario::Scenario> scenarios() const;
 };
 
@@ -44,12 +47,10 @@ std::filesystem::path numerics_file(std::filesystem::path const& campaign_folder
 void write_numerics(std::filesystem::path const& campaign_folder,
                     std::vector<evaluate::NumericsBudget> const& budgets);
 
-/// The numerical errors (NumericsBudget::numerical_error) of the cases of a plan by id. A case that was not
-/// studied borrows that of the nearest case that was: every key in which the cases of the plan differ counts,
-/// numbers with their difference over their range, everything else with 1 when it differs; the distance is
-/// the root of the sum of the squares, and the first of equals is taken. Empty when there is no file. Budgets
-/// of cases that are no longer part of the plan, and budgets with unknown parts, are not used.
+/// The numerical errors (NumericsBudget::numerical_error) of the studied cases, by id. Empty when there is no
+/// file. Budgets with unknown parts are not used. The others have what is known beforehand
+/// (prepare::numerical_errors): an error differs from layer to layer.
 /// @throws core::InputError when the file is damaged
-std::map<std::string, store::CaseNumerics> read_case_numerics(Plan const& plan);
+std::map<std::string, double> read_case_numerics(std::filesystem::path const& campaign_folder);
 
 }  // namespace vibrotrough::campaign

@@ -144,7 +144,7 @@ CaseOverview survey_readable(PlannedCase const& planned, bool has_driver) {
 /// @param complete  whether they get what the theory says of them, and those that had to be read from the
 ///                  results are written beside them
 std::vector<store::CaseRecord> result_summaries(Plan const& plan, bool complete = false) {
-    auto const studied = read_case_numerics(plan);
+    auto const studied = read_case_numerics(plan.folder);
     std::vector<store::CaseRecord> records;
     constexpr std::size_t part = 1024;  // all at once would fill the memory twice
     for (std::size_t begin = 0; begin < plan.cases.size(); begin += part) {
@@ -159,7 +159,7 @@ std::vector<store::CaseRecord> result_summaries(Plan const& plan, bool complete 
                 if (complete && planned.prepared->stages.empty())  // the theory is for one drive without end
                     found[i]->theory = prepare::point_mass_theory(planned.prepared->point_mass);
                 if (auto const known = studied.find(planned.id); known != studied.end())
-                    found[i]->studied = known->second;
+                    found[i]->studied_error = known->second;
             };
         });
         for (auto& record : found)
@@ -176,7 +176,7 @@ std::string digest_of(Plan const& plan, std::vector<store::CaseRecord> const& re
     for (scenario::Key const* const key : plan.swept) facts += fmt::format("{} ", key->path);
     for (store::CaseRecord const& record : records) {
         facts += store::digest_of_summary(record);
-        if (record.studied) facts += fmt::format("{} {}", record.studied->error, record.studied->case_id);
+        if (record.studied_error) facts += fmt::format("{} ", *record.studied_error);
     }
     return core::sha256_hex(facts);
 }

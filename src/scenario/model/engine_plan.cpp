@@ -2,16 +2,13 @@
 
 #include "scenario/model/run_settings.hpp"
 
-#include <array>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace vibrotrough::scenario {
 
 std::string_view name_of(ContactModel model) {
-    constexpr std::array<std::string_view, 2> names{"hertz", "hooke"};
-    return names.at(static_cast<std::size_t>(model));
+    return contact_words.at(static_cast<std::size_t>(model));
 }
 
 bool is_template_name(std::string_view name) {

@@ -46,8 +46,8 @@ constexpr Part stages_of_drive{"stages.", [](Scenario const& s) { return !s.stag
 constexpr Part feed{"feed.mass_flow", is_open};
 constexpr Part screen{"screen.opening", is_screen};
 constexpr Part batch{"screen.opening", is_batch};
-constexpr Part hooke{"engine.contact",
-                     [](Scenario const& s) { return s.engine.contact == ContactModel::hooke; }};
+constexpr Part other_contact{"engine.contact",
+                             [](Scenario const& s) { return s.engine.contact != ContactModel::hertz; }};
 constexpr Part cohesion{"engine.cohesion", [](Scenario const& s) { return s.engine.cohesion > 0; }};
 constexpr Part contacts{"output.contacts", [](Scenario const& s) { return s.output.contacts; }};
 constexpr Part frames{"output.frames_per_cycle",
@@ -77,7 +77,7 @@ constexpr std::array excluded{
     Pair{block, clump, "a block has a shape of its own"},
     Pair{block, several_sizes, "a block has only one diameter"},
     Pair{block, materials_of_layer, "a block has only one material"},
-    Pair{block, hooke, "a block has a contact of its own"},
+    Pair{block, other_contact, "a block has a contact of its own"},
     Pair{block, cohesion, "a block has a contact of its own, without attraction"},
     Pair{block, contacts, "contacts are written only for layers of spheres"},
     Pair{clump, contacts, "contacts are written only for layers of spheres"},

@@ -110,10 +110,8 @@ constexpr std::array rows_of_plans{
         "duration of a cycle divided by the duration of a block's contact",
         field<&Scenario::solver, &SolverPlan::block_stiffness>},
 
-    Key{"engine.contact", choice, "", 0, 0, one_of("hertz", "hooke"), "", optional, "\"hooke\"",
-        "normal force of the contacts; hertz: proportional to overlap^(3/2), as elasticity theory says; "
-        "hooke: a linear spring as stiff as a Hertz contact in the fastest expected impact",
-        field<&Scenario::engine, &EnginePlan::contact>.unless_default()},
+    Key{"engine.contact", choice, "", 0, 0, Allowed(contact_words), "", optional, "\"hooke\"",
+        contact_meaning, field<&Scenario::engine, &EnginePlan::contact>.unless_default()},
     Key{"engine.cohesion", quantity, "J/m3", 0, 1e9, "0 to 1e9 J/m3", "", 0.0, "\"50 kJ/m3\"",
         "energy density of the cohesion model sjkr: grains and trough attract each other with this pressure "
         "times the area of their contact",

@@ -11,12 +11,6 @@ bool same(std::vector<Harmonic> const& a, std::vector<Harmonic> const& b) {
     });
 }
 
-bool same_normal_motion(Conveyor const& a, Conveyor const& b) {
-    return a.point.throw_number == b.point.throw_number && a.air_drag == b.air_drag &&
-           a.restitution == b.restitution && a.slowest_rebound == b.slowest_rebound &&
-           same(a.normal, b.normal);
-}
-
 }  // namespace
 
 Decayed Decayed::with_drag(double kappa, double h) {
@@ -59,7 +53,10 @@ void Forces::set_trough(Conveyor const& c) {
 }
 
 void Forces::set(Conveyor const& c) {
-    same_normal_ = known_ && same_normal_motion(c, last_);
+    double const weight = 1 / c.point.throw_number;
+    same_normal_ = known_ && weight == weight_ && c.air_drag == last_.air_drag &&
+                   c.restitution == last_.restitution && c.slowest_rebound == last_.slowest_rebound &&
+                   same(c.normal, last_.normal);
     bool const same_drive = known_ && c.air_drag == last_.air_drag && c.along_ratio == last_.along_ratio &&
                             c.along_phase == last_.along_phase && same(c.along, last_.along) &&
                             same(c.normal, last_.normal);
@@ -67,7 +64,7 @@ void Forces::set(Conveyor const& c) {
     last_ = c;
     double const tan_beta = c.point.tan_vibration_angle;
     EffectiveFriction const friction = effective_friction(c);
-    weight_ = 1 / c.point.throw_number;
+    weight_ = weight;
     gravity_ = c.point.tan_inclination * tan_beta * weight_;
     kinetic_ = friction.kinetic_friction * tan_beta;
     landing_ = friction.landing_friction * tan_beta;
@@ -82,6 +79,11 @@ void Forces::set(Conveyor const& c) {
     set_slide(positive_, +1, friction.static_friction * tan_beta);
     set_slide(negative_, -1, friction.static_friction * tan_beta);
     known_ = true;
+}
+
+double Forces::steepest_held(bool lands) const {
+    EffectiveFriction const friction = effective_friction(last_);
+    return std::max(friction.static_friction, lands ? friction.landing_friction : 0);
 }
 
 void Forces::set_constant(double needed, double friction) {

@@ -45,7 +45,8 @@ struct Sliding {
 /// - a slide has the friction -/+ mu tan(beta) N; in flight there is none;
 /// - drag is -kappa times the velocity in space.
 ///
-/// A force that is a function of time belongs to `normal_` or `needed_`, and nowhere else.
+/// A force that is a function of time belongs to `normal_` or `needed_`, a constant one normal to the trough
+/// to `weight_` and steepest_held(), and nowhere else.
 class Forces {
   public:
     /// Takes the place of the last conveyor, reusing its memory.
@@ -55,13 +56,16 @@ class Forces {
 
     Conveyor const& conveyor() const { return last_; }
     double drag() const { return last_.air_drag; }       ///< kappa
-    double weight() const { return weight_; }            ///< 1 / Gamma
+    double weight() const { return weight_; }            ///< constant part of N: 1 / Gamma
     double gravity() const { return gravity_; }          ///< tan(alpha) tan(beta) / Gamma
     double kinetic_tangent() const { return kinetic_; }  ///< mu tan(beta), side walls included
     double landing_tangent() const { return landing_; }  ///< the same for the impulse of a landing
     double restitution() const { return last_.restitution; }
     double slowest_rebound() const { return last_.slowest_rebound; }
     bool one_friction() const { return positive_.one_friction; }
+    /// tan(alpha) of the steepest trough on which friction can hold the mass over a cycle.
+    /// @param lands  whether there are landings
+    double steepest_held(bool lands) const;
     /// Whether flights start by the rule of Table 1, FlightStart::trough_velocity_rule.
     bool starts_by_rule() const { return last_.flight_start == FlightStart::trough_velocity_rule; }
     /// Whether the normal motion is that of the conveyor before.

@@ -1,5 +1,7 @@
 #include "theory/detail/ranges.hpp"
 
+#include "theory/inputs.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -30,11 +32,25 @@ std::string short_text(double value) {
     return text;
 }
 
-void require_range(bool good, char const* name, double value, char const* range) {
+void require_range(bool good, std::string_view name, double value, std::string_view range) {
     if (good) return;
     throw std::invalid_argument(std::string(name) + " = " + short_text(value) + " is outside its range " +
-                                range);
+                                std::string(range));
 }
+
+namespace {
+
+bool is_within(InputRow const& row, double value) {
+    return value >= row.least && value <= row.most && (value == 0 || std::abs(value) >= row.least_but_zero);
+}
+
+std::string range_of(InputRow const& row) {
+    bool const split = row.least_but_zero > 0;
+    return (split ? "0 or [" : "[") + short_text(split ? row.least_but_zero : row.least) + ", " +
+           short_text(row.most) + "]";
+}
+
+}  // namespace
 
 void check_ranges(PointMass const& p) {
     require_range(p.throw_number > 0 && p.throw_number <= largest_throw_number, "throw_number",
@@ -54,19 +70,12 @@ std::string inputs_text(PointMass const& p) {
 
 void check_ranges(Conveyor const& c) {
     check_ranges(c.point);
-    require_range(
-        c.static_friction == 0 || (c.static_friction >= c.point.friction && c.static_friction <= 1e6),
-        "static_friction", c.static_friction, "[friction, 1e6]");
-    require_range(c.restitution >= 0 && c.restitution <= largest_restitution, "restitution", c.restitution,
-                  "[0, 0.95]");
-    require_range(c.slowest_rebound >= 1e-9 && c.slowest_rebound <= 1, "slowest_rebound", c.slowest_rebound,
-                  "[1e-9, 1]");
-    require_range(!c.landing_friction || (*c.landing_friction >= 0 && *c.landing_friction <= 1e6),
-                  "landing_friction", c.landing_friction.value_or(0), "[0, 1e6]");
-    require_range(c.air_drag == 0 || (c.air_drag >= 1e-8 && c.air_drag <= 1e3), "air_drag", c.air_drag,
-                  "0 or [1e-8, 1000]");
-    require_range(std::abs(c.along_ratio) <= 1e3, "along_ratio", c.along_ratio, "[-1000, 1000]");
-    require_range(std::abs(c.along_phase) <= 100, "along_phase", c.along_phase, "[-100, 100]");
+    for (InputRow const& row : input_rows) {
+        auto const value = value_in(c, row);
+        if (value && !is_within(row, *value)) require_range(false, row.name, *value, range_of(row));
+    }
+    require_range(c.static_friction == 0 || c.static_friction >= c.point.friction, "static_friction",
+                  c.static_friction, "[friction, 1e6]");
     for (auto const* harmonics : {&c.along, &c.normal}) {
         for (Harmonic const& h : *harmonics) {
             require_range(h.order >= 1 && h.order <= 100, "order", h.order, "[1, 100]");
@@ -74,12 +83,6 @@ void check_ranges(Conveyor const& c) {
             require_range(std::abs(h.phase) <= 100, "phase", h.phase, "[-100, 100]");
         }
     }
-    require_range(c.wall_friction >= 0 && c.wall_friction <= 1e3, "wall_friction", c.wall_friction,
-                  "[0, 1000]");
-    require_range(c.wall_pressure_ratio >= 0 && c.wall_pressure_ratio <= 1, "wall_pressure_ratio",
-                  c.wall_pressure_ratio, "[0, 1]");
-    require_range(c.height_over_width >= 0 && c.height_over_width <= 1e3, "height_over_width",
-                  c.height_over_width, "[0, 1000]");
     // The change of the velocity by friction within a radian: where it is near rounding, any motion seems to
     // repeat.
     EffectiveFriction const friction = effective_friction(c);
@@ -91,9 +94,6 @@ void check_ranges(Conveyor const& c) {
 }
 
 std::string inputs_text(Conveyor const& c) {
-    auto const number = [](char const* name, double value) {
-        return std::string(" ") + name + "=" + number_text(value);
-    };
     auto const harmonics = [&](char const* name, std::vector<Harmonic> const& all) {
         std::string text;
         for (Harmonic const& h : all) {
@@ -102,14 +102,12 @@ std::string inputs_text(Conveyor const& c) {
         }
         return text;
     };
-    return inputs_text(c.point) + number("static_friction", c.static_friction) +
-           number("restitution", c.restitution) + number("slowest_rebound", c.slowest_rebound) +
-           (c.landing_friction ? number("landing_friction", *c.landing_friction) : "") +
-           number("air_drag", c.air_drag) + number("along_ratio", c.along_ratio) +
-           number("along_phase", c.along_phase) + harmonics("along", c.along) +
-           harmonics("normal", c.normal) + number("wall_friction", c.wall_friction) +
-           number("wall_pressure_ratio", c.wall_pressure_ratio) +
-           number("height_over_width", c.height_over_width);
+    std::string text = inputs_text(c.point);
+    for (InputRow const& row : input_rows) {
+        if (auto const value = value_in(c, row))
+            text.append(" ").append(row.name).append("=").append(number_text(*value));
+    }
+    return text + harmonics("along", c.along) + harmonics("normal", c.normal);
 }
 
 }  // namespace vibrotrough::theory::detail

@@ -3,6 +3,7 @@
 #include "theory/conveyor.hpp"
 
 #include <string>
+#include <string_view>
 
 // Internal to this room.
 namespace vibrotrough::theory::detail {
@@ -14,7 +15,7 @@ std::string number_text(double value);
 std::string short_text(double value);
 
 /// @throws std::invalid_argument "name = value is outside its range range" unless `good`
-void require_range(bool good, char const* name, double value, char const* range);
+void require_range(bool good, std::string_view name, double value, std::string_view range);
 
 /// @throws std::invalid_argument when an input is out of range
 void check_ranges(PointMass const& input);

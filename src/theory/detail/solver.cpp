@@ -243,13 +243,11 @@ Efficiency ConveyorSolver::running_away() const {
 }
 
 /// What follows from the forces alone; nothing when the motion has to be found.
-std::optional<Efficiency> ConveyorSolver::without_motion(Conveyor const& c) const {
-    if (c.air_drag > 0) return std::nullopt;
-    EffectiveFriction const friction = effective_friction(c);
-    double const in_flights = orbit_.in_contact ? 0 : friction.landing_friction;
-    double const strongest = std::max(friction.static_friction, in_flights);
-    if (std::abs(c.point.tan_inclination) > strongest) return running_away();
-    if (strongest == 0) return Efficiency{0, 0, 0, Outcome::indifferent};
+std::optional<Efficiency> ConveyorSolver::without_motion() const {
+    if (forces_.drag() > 0) return std::nullopt;
+    double const steepest = forces_.steepest_held(!orbit_.in_contact);
+    if (std::abs(forces_.conveyor().point.tan_inclination) > steepest) return running_away();
+    if (steepest == 0) return Efficiency{0, 0, 0, Outcome::indifferent};
     return std::nullopt;
 }
 
@@ -263,7 +261,7 @@ Efficiency ConveyorSolver::solve(Conveyor const& c) {
         orbit_known_ = is_standard(from_) && !orbit_.in_doubt;
         if (orbit_.joined != never) return {0, 0, 0, Outcome::unsettled};
     }
-    if (auto const known = without_motion(c)) return *known;
+    if (auto const known = without_motion()) return *known;
     bool const has_period = orbit_.cycles > 0;
     bool const by_rule = forces_.starts_by_rule(), one_friction = forces_.one_friction() && !by_rule;
     leaps_.resize(orbit_.hops.size());

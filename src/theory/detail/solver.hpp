@@ -58,7 +58,7 @@ class ConveyorSolver {
     void iterate_by_rule();
     void repeat_orbit(std::size_t times);
     Efficiency solve(Conveyor const& conveyor);
-    std::optional<Efficiency> without_motion(Conveyor const& conveyor) const;
+    std::optional<Efficiency> without_motion() const;
     Efficiency running_away() const;
     bool repeats() const;
     Efficiency average(std::size_t first);

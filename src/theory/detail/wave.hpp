@@ -71,7 +71,6 @@ class Crossings {
     std::size_t count() const { return zeros_.size(); }
     /// The zeros within [0, 2 pi), in order.
     std::vector<Instant> const& zeros() const { return zeros_; }
-    bool positive_at_start() const { return positive_at_start_; }
     /// Whether the wave is positive after zero i.
     bool rises(std::size_t i) const { return (i % 2 == 0) != positive_at_start_; }
     /// The section that t belongs to. A zero that only rounding puts ahead of t has been passed.

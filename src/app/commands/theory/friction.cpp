@@ -86,7 +86,7 @@ void add_theory_friction(CLI::App& theory, int& exit_code) {
     command->add_flag("--json", options->json, "Print JSON");
     command->footer(
         std::string(
-            R"(The test (Sloot & Kruyt 1996, section 6 and Fig. 8): shake a plate horizontally, and measure the largest
+            R"(The test (Sloot & Kruyt 1996, section 3.5 and Fig. 8): shake a plate horizontally, and measure the largest
 displacement of a box of grains relative to the plate, from peak to peak, in amplitudes r. Prints the friction
 coefficient, its interval when an uncertainty is given, and the mode.
 

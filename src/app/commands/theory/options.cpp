@@ -53,18 +53,7 @@ void TheoryOptions::add_to(CLI::App& command) {
         .add_option("--rpm", rpm_, "Turns of the drive per minute, instead of --frequency, for example 960")
         ->group(machine);
     char const* const group = "Beyond the plastic point mass of Sloot & Kruyt (1996)";
-    quantities_.add_to(command,
-                       {{"--restitution"},
-                        {"--slowest-rebound"},
-                        {"--static-friction"},
-                        {"--landing-friction"},
-                        {"--air-drag"},
-                        {"--along-ratio"},
-                        {"--along-phase"},
-                        {"--wall-friction"},
-                        {"--wall-pressure-ratio"},
-                        {"--height-over-width"}},
-                       group);
+    quantities_.add_beyond_plastic(command, group);
     command
         .add_option("--harmonic-along", along_,
                     "Further acceleration along the trough: \"ORDER,AMPLITUDE,PHASE\", for example "
@@ -212,7 +201,6 @@ theory::Conveyor TheoryOptions::conveyor() const {
     theory::Inputs const inputs = given();
     require_complete(inputs);
     theory::Conveyor conveyor = inputs.conveyor();
-    conveyor.slowest_rebound = quantities_.value("--slowest-rebound").value_or(conveyor.slowest_rebound);
     for (auto const& text : along_) conveyor.along.push_back(read_harmonic("--harmonic-along", text));
     for (auto const& text : normal_) conveyor.normal.push_back(read_harmonic("--harmonic-normal", text));
     if (table_1_rule_) conveyor.flight_start = theory::FlightStart::trough_velocity_rule;

@@ -1,27 +1,21 @@
-#!/usr/bin/python3
-"""Draws velocity efficiency from campaign.h5: DEM points with error bars, and the theory.
+"""Velocity efficiency from campaign.h5: DEM points with error bars, and the theory.
 
-    plot_campaign.py DIR [--theory FILE.csv] [--output NAME]
-
-DIR holds campaign.h5. The figure is drawn over the throw number or, where that is the same in all cases, over the first
-swept key; the first other swept key gives the colour, the second the marker, and each combination of the rest a panel.
-FILE.csv is what the program computed of the theory, with at least the columns throw_number, vibration_angle_deg and
-velocity_efficiency (a fine curve, drawn as a line) or efficiency_theory (the theory at the cases, as `vibrotrough compare
---csv` prints it, drawn as small crosses joined by a thin line). Lines that belong to several colours are grey. Nothing of
-the theory is computed here. Writes NAME.svg and NAME.png, by default DIR/report/efficiency.
+The figure is drawn over the throw number or, where that is the same in all cases, over the first swept key; the first other
+swept key gives the colour, the second the marker, and each combination of the rest a panel. The theory is what the program
+computed, with at least the columns throw_number, vibration_angle_deg and velocity_efficiency (a fine curve, drawn as a line)
+or efficiency_theory (the theory at the cases, as `vibrotrough compare --csv` prints it, drawn as small crosses joined by a
+thin line). Lines that belong to several colours are grey. Nothing of the theory is computed here.
 """
 
-import argparse
 import csv
 import io
 import itertools
 import math
 import pathlib
-import sys
 import textwrap
 from collections import defaultdict
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,6 +28,9 @@ from figure_columns import RESTITUTION_MODELS, Model, draw_models, models_of, sh
 from figure_inputs import Input, panels, split_inputs, swept_inputs
 from figure_style import (COLOURS, DASHES, EFFICIENCY, GREY, MARKERS, Problem, characters_across, corner, is_narrow, new_figure, plain_axes,
                           points, save)  # fmt: skip
+
+if TYPE_CHECKING:
+    from figures import Source
 
 Columns = dict[str, NDArray[Any]]
 Pair = tuple[NDArray[np.float64], NDArray[np.float64]]  # places and efficiencies of a line
@@ -282,15 +279,20 @@ def label(figure: Figure, grid: list[Axes], series: Series, attributes: dict[str
     return taken
 
 
-def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, output: pathlib.Path,
+def plot_efficiency(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
+    at_cases = {row["case"]: row for row in source.overview["cases"]}
+    return draw_efficiency(source.directory, source.data / "theory_curves.csv", output, at_cases)
+
+
+def draw_efficiency(directory: pathlib.Path, theory_file: pathlib.Path, output: pathlib.Path,
                     at_cases: dict[str, dict[str, Any]] | None = None) -> list[pathlib.Path]:
     """Draws the figure; returns the files. `at_cases` has the rows of `compare` by case, for other inputs than the throw number."""
     columns, units, attributes = read_campaign(directory / "campaign.h5")
     if len(columns.get("case", [])) == 0:
         raise Problem(f"{directory / 'campaign.h5'} holds no finished case; run the campaign first")
-    theory, style = read_theory(theory_file) if theory_file else ({}, {})
-    rolling = read_rolling_layer(theory_file) if theory_file and rotates(columns) else {}
-    atlas = read_atlas(theory_file) if theory_file else {}
+    theory, style = read_theory(theory_file)
+    rolling = read_rolling_layer(theory_file) if rotates(columns) else {}
+    atlas = read_atlas(theory_file)
     series = Series(columns, units, attributes)
     told, models = "", set[str]()
     swept = str(attributes.get("swept_keys", "")).split()
@@ -324,22 +326,3 @@ def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, o
     taken = label(figure, grid[:len(shown)], series, attributes, told + "".join(f"; {words}" for words in [words_of_models(models, grid)] if words))
     figure.tight_layout(rect=(0, 0.02, 1, 1 - taken))
     return save(figure, output)
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("directory", type=pathlib.Path, metavar="DIR", help="a campaign's folder, with campaign.h5")
-    parser.add_argument("--theory", type=pathlib.Path, metavar="FILE.csv", help="theory curve made by vibrotrough")
-    parser.add_argument("--output", type=pathlib.Path, metavar="NAME", help="path of the figures without .svg and .png")
-    options = parser.parse_args()
-
-    output = options.output or options.directory / "report" / "efficiency"
-    for path in plot_efficiency(options.directory, options.theory, output):
-        print(path)
-
-
-if __name__ == "__main__":
-    try:
-        main()
-    except Problem as problem:
-        sys.exit(f"plot_campaign.py: {problem}")
