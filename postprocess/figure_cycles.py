@@ -67,7 +67,8 @@ def draw_packing(axes: Axes, result: vibrotrough.File, number: int, row: Mapping
     if row["efficiency_theory"] is not None:
         axes.axhline(row["efficiency_theory"], color=COLOURS[2], linestyle=DASHES[2], linewidth=1.4, label="theory")
     # Whether a single packing is precise does not matter: what is asked for is the interval of the case.
-    verdict = ": not-steady" if result["packings/verdict"][number] == "not-steady" else ""
+    is_told = row["outcome"] != "finished" and result["packings/verdict"][number] == "not-steady"
+    verdict = ": not-steady" if is_told else ""
     # Where a drive often ends at a standstill the low corner is taken.
     place = {"xy": (0.995, 0.95), "va": "top"} if has_stages else {"xy": (0.995, 0.05), "va": "bottom"}
     axes.annotate(f"packing {number + 1}{verdict}", **place, xycoords="axes fraction", ha="right",

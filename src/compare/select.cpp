@@ -140,7 +140,15 @@ Column const& column_named(std::span<Column const> columns, std::string_view opt
     auto const is_short = [&](Column const& column) {
         return column.swept >= 0 && column.key.substr(column.key.find('.') + 1) == name;
     };
-    if (std::ranges::count_if(columns, is_short) == 1) return *std::ranges::find_if(columns, is_short);
+    // As the tables print it, where only one column is headed so.
+    auto const is_headed = [&](Column const& column) {
+        auto const& terminal = column.terminal;
+        return (terminal && (terminal->heading == name ||
+                             fmt::format("{} {}", terminal->heading, terminal->subheading) == name)) ||
+               (column.report && column.report->heading == name);
+    };
+    for (auto const& fits : {std::function<bool(Column const&)>(is_short), {is_headed}})
+        if (std::ranges::count_if(columns, fits) == 1) return *std::ranges::find_if(columns, fits);
     throw core::InputError(
         fmt::format("{}: there is no column '{}'; {}", option, name, advice_of(columns, name)));
 }
