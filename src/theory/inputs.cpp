@@ -37,7 +37,9 @@ double tangent_of_vibration_angle(double degrees) {
 }  // namespace
 
 std::optional<Input> input_named(std::string_view name) {
-    auto const* const row = std::ranges::find(input_rows, name, &InputRow::name);
+    // Not std::ranges, which the compiler of the page for browsers does not have whole.
+    auto const* const row = std::find_if(input_rows.begin(), input_rows.end(),
+                                         [&](InputRow const& one) { return one.name == name; });
     if (row == input_rows.end()) return std::nullopt;
     return static_cast<Input>(row - input_rows.begin());
 }
