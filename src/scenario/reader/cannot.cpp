@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array requests{
     Cannot{
-        "skirt guard motion standstill at_rest static_wall",
+        "skirt guard motion at_rest static_wall",
         "surfaces that move differently from the trough, such as a skirt at rest, cannot be simulated",
         "leave it out, or let it move with the trough (trough.side_wall_friction, or walls in trough.mesh)"},
     Cannot{"rocking rotation_amplitude rotation_center pitch yaw tilt swing",
