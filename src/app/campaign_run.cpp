@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 
 /// Prints what is not fine on standard error, one line each.
 void print_findings(deck::CampaignCheck const& found, std::string const& campaign_file) {
+    for (std::string const& remark : found.remarks) tell("{}\n", remark);
     int const count = found.warnings() + found.errors();
     if (count == 0) return;
     tell("check: {} finding{} ('vibrotrough check {}' shows all):\n", count, count == 1 ? "" : "s",
@@ -147,7 +148,8 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     campaign::lock_campaign(folder);
     check(options, campaign);
     tell_not_covered(campaign.cases);
-    bool const is_interrupted = !certify(engine, options.accept_failed_probes);
+    bool const is_interrupted = !certify(engine, options.accept_failed_probes) ||
+                                !try_meshes(engine, options.campaign_file, campaign.cases);
     campaign::Plan plan = campaign::make_plan(campaign, folder, engine.version);
     campaign::ExecutorKind const& kind = campaign::executor_kind(campaign.run.executor);
     campaign::ExecutorInputs inputs{folder, engine, campaign.run, options.jobs, core::own_program()};

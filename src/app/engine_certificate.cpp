@@ -2,9 +2,12 @@
 
 #include "app/standard_streams.hpp"
 #include "core/error.hpp"
+#include "deck/deck.hpp"
 #include "engine/probe.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -48,6 +51,26 @@ bool certify(engine::Engine& engine, bool accept_failed_probes) {
         std::string const problem = certificate->passed() ? engine::keep_certificate(*certificate) : "";
         if (!problem.empty()) tell("the certificate is not kept, the next run probes again: {}\n", problem);
         engine.certificate = engine::to_json(*certificate);
+    }
+    return true;
+}
+
+bool try_meshes(engine::Engine const& engine, std::string const& campaign_file,
+                std::vector<scenario::Scenario> const& cases) {
+    std::set<std::map<std::string, std::string>> known;
+    for (scenario::Scenario const& one : cases) {
+        if (!one.trough.mesh) continue;
+        deck::Deck const deck = deck::make_deck(prepare::prepare_case(one), {1});
+        std::map<std::string, std::string> meshes = deck.settle_files;
+        meshes.erase(deck::settle_file);
+        if (!known.insert(std::move(meshes)).second) continue;
+        auto const problem = engine::read_meshes(engine, deck);
+        if (!problem) return false;
+        if (problem->empty()) continue;
+        throw core::InputError(
+            fmt::format("{}: trough.mesh: {}: the engine refuses the surface: {}; export it with fewer or "
+                        "stouter triangles",
+                        campaign_file, one.trough.mesh->names(), *problem));
     }
     return true;
 }

@@ -1,6 +1,10 @@
 #pragma once
 
 #include "engine/engine.hpp"
+#include "scenario/model/scenario.hpp"
+
+#include <string>
+#include <vector>
 
 namespace vibrotrough::app {
 
@@ -10,5 +14,10 @@ namespace vibrotrough::app {
 /// @param accept_failed_probes  whether the user accepts an engine whose probes failed
 /// @throws core::MissingError when probes failed and the user does not accept that
 bool certify(engine::Engine& engine, bool accept_failed_probes);
+
+/// Lets the engine read each mesh of the cases once. False when interrupted.
+/// @throws core::InputError with what the engine says when it refuses one
+bool try_meshes(engine::Engine const& engine, std::string const& campaign_file,
+                std::vector<scenario::Scenario> const& cases);
 
 }  // namespace vibrotrough::app

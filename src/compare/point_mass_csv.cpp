@@ -16,7 +16,7 @@ std::optional<PointMassMotion> point_mass_motion(prepare::PreparedCase const& pr
     theory::ConveyorMotion motion = theory::solve(conveyor);
     if (!prepared.stages.empty()) return {};
     if (motion.motion.outcome != theory::Outcome::periodic) return {};
-    double const length_x = trough.amplitude * std::cos(trough.vibration_angle);
+    double const length_x = length_scale(trough);
     return PointMassMotion{.motion = std::move(motion),
                            .scale = {.length_x = length_x,
                                      .length_z = length_x * conveyor.point.tan_vibration_angle,

@@ -60,6 +60,9 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
         if (total.cases == 1 && scenario.engine.templates) make_deck(prepared, {1});
         std::string const label = swept_label(scenario, campaign.swept);
         for (Finding const& finding : check(prepared)) add(total, finding, total.cases, label);
+        for (std::string const& remark : remarks(scenario))
+            if (std::ranges::find(total.remarks, remark) == total.remarks.end())
+                total.remarks.push_back(remark);
         double const modulus = prepared.scenario.grains.youngs_modulus.value();
         total.least_modulus = total.cases == 1 ? modulus : std::min(total.least_modulus, modulus);
         total.most_modulus = std::max(total.most_modulus, modulus);

@@ -18,18 +18,19 @@ struct CheckedItem {
 
 /// What is known about a campaign before it is simulated.
 struct CampaignCheck {
-    std::vector<CheckedItem> items;  ///< in the order of deck::check
-    int cases = 0;                   ///< number of cases
-    double work = 0;                 ///< expected of the whole campaign, see expected_work
-    double largest_step_cost = 1;    ///< prepare::relative_step_cost of the largest layer
-    double bytes = 0;                ///< expected size of all files, bytes
-    double largest_bytes = 0;        ///< if all cases go to max_packings and max_cycles, bytes
-    double engine_memory = 0;        ///< of one engine of the largest case, bytes
-    double least_modulus = 0;        ///< Young's modulus of the softest grains, Pa
-    double most_modulus = 0;         ///< of the stiffest grains, Pa
-    int moduli_chosen = 0;           ///< number of cases whose modulus was not given
-    double packings = 0;             ///< number of packings of all cases
-    double cycles = 0;               ///< expected number of cycles of all packings
+    std::vector<CheckedItem> items;    ///< in the order of deck::check
+    int cases = 0;                     ///< number of cases
+    double work = 0;                   ///< expected of the whole campaign, see expected_work
+    double largest_step_cost = 1;      ///< prepare::relative_step_cost of the largest layer
+    double bytes = 0;                  ///< expected size of all files, bytes
+    double largest_bytes = 0;          ///< if all cases go to max_packings and max_cycles, bytes
+    double engine_memory = 0;          ///< of one engine of the largest case, bytes
+    double least_modulus = 0;          ///< Young's modulus of the softest grains, Pa
+    double most_modulus = 0;           ///< of the stiffest grains, Pa
+    int moduli_chosen = 0;             ///< number of cases whose modulus was not given
+    double packings = 0;               ///< number of packings of all cases
+    double cycles = 0;                 ///< expected number of cycles of all packings
+    std::vector<std::string> remarks;  ///< what was mended or left out of files, each once
 
     /// Number of items that are a warning in their worst case.
     int warnings() const;

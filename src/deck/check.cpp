@@ -2,8 +2,10 @@
 
 #include "deck/estimates.hpp"
 #include "deck/open_trough.hpp"
+#include "deck/trough_mesh.hpp"
 #include "prepare/contact.hpp"
 #include "scenario/model/softness.hpp"
+#include "scenario/model/surface_repair.hpp"
 #include "theory/unusual.hpp"
 
 #include <algorithm>
@@ -284,6 +286,62 @@ void check_unusual(std::vector<Finding>& findings, prepare::PreparedCase const& 
     }
 }
 
+/// A needle of a mesh that cannot be divided into stouter triangles, with its place.
+void check_mesh(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    if (!c.domain.has_mesh()) return;
+    scenario::TroughMesh const& mesh = *c.scenario.trough.mesh;
+    auto const worst = std::ranges::min_element(mesh.triangles, {}, scenario::smallest_angle);
+    auto const number = mesh.numbers[static_cast<std::size_t>(worst - mesh.triangles.begin())];
+    auto const [x, y, z] = worst->front();
+    findings.push_back(least(
+        "smallest angle of a triangle of the mesh", "trough.mesh", smallest_angle_of_mesh(c),
+        hard_angle_of_engine, hard_angle_of_engine,
+        fmt::format("draw triangle {} with stouter ones, at ({:.4g}, {:.4g}, {:.4g}) {} from the corner of "
+                    "the mesh: the engine refuses needles",
+                    number, x, y, z, name_of(c.scenario.trough.mesh_unit))));
+    findings.back().unit = "deg";
+}
+
+/// sum over harmonics of the squares of their accelerations, in units of the fundamental's amplitude.
+double acceleration_power(scenario::DriveMotion const& motion, bool of_fundamental) {
+    double sum = 0;
+    for (auto const* terms : {&motion.along, &motion.normal})
+        for (scenario::DriveTerm const& term : *terms)
+            if ((term.order == 1) == of_fundamental)
+                sum += std::pow(term.amplitude * term.order * term.order, 2);
+    return sum;
+}
+
+/// The noise of a record grows with the square of the order when it is taken for a motion.
+void check_record(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    if (!c.scenario.trough.waveform) return;
+    findings.push_back(
+        most("accelerations of the harmonics / of the fundamental (rms)", "trough.waveform",
+             std::sqrt(acceleration_power(c.motion, false) / acceleration_power(c.motion, true)), 1, never,
+             "look at the record: either the motion has shocks, or noise is taken for motion, and "
+             "waveform_order leaves out high harmonics"));
+}
+
+/// Air slows down grains that fall slowly in it, and layers of them let hardly any through.
+void check_air(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    constexpr double powder = 0.2e-3;
+    double const smallest = c.classes.back().diameter;
+    if (smallest >= powder) return;
+    findings.push_back(least("diameter of the smallest grains, for which air does not matter",
+                             "grains.diameter", 1e3 * smallest, 1e3 * powder, 0,
+                             "air is not simulated, and layers of powder on a trough are held back and "
+                             "lifted by it; compare with a measurement"));
+    findings.back().unit = "mm";
+}
+
+/// What nobody waits for is a mistake of units or sizes.
+void check_cost(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    double const hours = expected_work(c, expected_packings(c.scenario)) / usual_speed / 3600;
+    findings.push_back(most("core-hours of a case", "layer.grains", hours, 1000, 10'000,
+                            "use fewer or larger grains, a shorter box, or softer grains"));
+    findings.back().unit = "h";
+}
+
 void check_engine(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     prepare::TimeGrid const& time = c.time;
     findings.push_back(least("steps between rebuilds of neighbour lists at twice the trough's speed",
@@ -356,6 +414,7 @@ std::vector<Finding> check_drive(prepare::PreparedCase const& prepared) {
         check_screen(findings, prepared);
     }
     check_stroke(findings, prepared);
+    check_record(findings, prepared);
     check_unusual(findings, prepared);
     return findings;
 }
@@ -392,6 +451,9 @@ double excess(Finding const& finding) {
 
 std::vector<Finding> check(prepare::PreparedCase const& prepared) {
     std::vector<Finding> findings = prepared.stages.empty() ? check_drive(prepared) : check_stages(prepared);
+    check_mesh(findings, prepared);
+    check_air(findings, prepared);
+    check_cost(findings, prepared);
     check_engine(findings, prepared);
     return findings;
 }

@@ -37,11 +37,20 @@ scenario::Material const& material_of(prepare::PreparedCase const& n, prepare::C
     return n.materials[static_cast<std::size_t>(size.material)];
 }
 
+/// Whether a grain or the region for pouring is near the engine's least volumes of 1e-12 and 1e-10 m^3, which
+/// are mistakes of units elsewhere. The deck then lowers both.
+bool is_small(prepare::PreparedCase const& n) {
+    scenario::Layer const& layer = n.scenario.layer;
+    return std::pow(n.classes.back().diameter, 3) < 1e-11 ||
+           layer.length * layer.width * (n.fill_top - n.fill_bottom) < 1e-9;
+}
+
 std::string template_of(prepare::PreparedCase const& n, prepare::ClassCount const& size, int index) {
     scenario::Scenario const& s = n.scenario;
-    std::string const start = fmt::format(
-        "{} {} atom_type {} density constant {}", is_body(s) ? "multisphere" : "sphere",
-        seed_number(4000 + index), atom_type_of(n, size.material), material_of(n, size).grains.density);
+    std::string const start =
+        fmt::format("{} {} atom_type {} density constant {}{}", is_body(s) ? "multisphere" : "sphere",
+                    seed_number(4000 + index), atom_type_of(n, size.material),
+                    material_of(n, size).grains.density, is_small(n) ? " volume_limit 1e-30" : "");
     if (!n.clump) return fmt::format("{} radius constant {}", start, size.diameter / 2);
     std::vector<std::string> spheres, inertia;
     for (scenario::Sphere const& sphere : n.clump->spheres)
@@ -110,6 +119,56 @@ std::string integrator(scenario::Scenario const& s) {
     return s.grains.rotation == scenario::Rotation::blocked ? "nve" : "nve/sphere";
 }
 
+/// The meshes that move with the trough.
+std::vector<std::string> moving_meshes(prepare::PreparedCase const& n) {
+    std::vector<std::string> meshes{"trough"};
+    for (std::size_t i = 0; i < n.domain.parts.size(); ++i) meshes.push_back(part_mesh(i));
+    if (n.scenario.trough.side_wall_friction) meshes.insert(meshes.end(), {"left", "right"});
+    if (n.domain.open) meshes.emplace_back("back");
+    if (is_fed_screen(n.scenario)) meshes.emplace_back("end");
+    return meshes;
+}
+
+/// One axis of a record as a viblin of the engine, which adds - a w sin(w t + p) dt in the step that ends at
+/// t. A sin(k phi + q) - A sin(k (phi - d) + q), with d the phase of a step, is 2 A sin(k d / 2) cos(k phi +
+/// q
+/// - k d / 2), so that a = 2 A sin(k d / 2) / (k d) and p = q - k d / 2 - pi / 2.
+core::TemplateData mover_of(std::vector<scenario::DriveTerm> const& terms, prepare::PreparedCase const& n) {
+    double const step = 2 * std::numbers::pi / n.time.steps_per_cycle;
+    std::vector<std::string> amplitudes, phases, periods;
+    for (scenario::DriveTerm const& term : terms) {
+        double const half = term.order * step / 2;
+        amplitudes.push_back(text(term.amplitude * std::sin(half) / half));
+        phases.push_back(text(term.phase - half - std::numbers::pi / 2));
+        periods.push_back(text(n.time.time_step * n.time.steps_per_cycle / term.order));
+    }
+    core::TemplateData mover;
+    mover.set("order", std::to_string(terms.size()));
+    mover.set("amplitudes", fmt::format("{}", fmt::join(amplitudes, " ")));
+    mover.set("phases", fmt::format("{}", fmt::join(phases, " ")));
+    mover.set("periods", fmt::format("{}", fmt::join(periods, " ")));
+    return mover;
+}
+
+/// A record without stages is moved by the engine's own sum of sines.
+void describe_record(core::TemplateData& data, prepare::PreparedCase const& n) {
+    bool const is_record = n.scenario.trough.waveform && n.stages.empty();
+    std::vector<core::TemplateData> movers;
+    for (std::string const& mesh : moving_meshes(n)) {
+        for (char const* axis : {"1 0 0", "0 0 1"}) {
+            auto const& terms = *axis == '1' ? n.motion.along : n.motion.normal;
+            if (!is_record || terms.empty()) continue;
+            core::TemplateData mover = mover_of(terms, n);
+            mover.set("fix", fmt::format("drive_{}_{}", mesh, *axis == '1' ? 'x' : 'z'));
+            mover.set("mesh", mesh);
+            mover.set("axis", axis);
+            movers.push_back(std::move(mover));
+        }
+    }
+    data.set("also_record", is_record);
+    data.set("also_movers", std::move(movers));
+}
+
 void describe_drive(core::TemplateData& data, prepare::PreparedCase const& n) {
     scenario::Scenario const& s = n.scenario;
     prepare::TimeGrid const& time = n.time;
@@ -130,8 +189,10 @@ void describe_drive(core::TemplateData& data, prepare::PreparedCase const& n) {
     }
     data.set("drive_remark", remark);
     describe_stages(data, n);
+    describe_record(data, n);
     // With stages the velocity is set before each cycle.
-    scenario::DriveMotion const motion = n.stages.empty() ? n.motion : scenario::DriveMotion{};
+    bool const has_formula = n.stages.empty() && !s.trough.waveform;
+    scenario::DriveMotion const motion = has_formula ? n.motion : scenario::DriveMotion{};
     std::vector<core::TemplateData> lines;
     for (auto const& [axis, terms] :
          {std::pair{std::string("x"), &motion.along}, std::pair{std::string("z"), &motion.normal}}) {
@@ -254,11 +315,13 @@ void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) 
     bool const walls = n.domain.is_closed;
     data.set("closed", walls);
     data.set("has_mesh", n.domain.has_mesh());
+    data.set("also_small", is_small(n));
+    data.set("also_tolerant", n.domain.has_mesh() && smallest_angle_of_mesh(n) < least_angle_of_engine);
     describe_moving_meshes(data, n);
     data.set("mesh_file", s.trough.mesh ? s.trough.mesh->names() : std::string());
     double const extent = n.largest_extent, diameter = mean_diameter(s), step = n.settle_time_step;
-    double const fall_time = std::sqrt(2 * n.fill_top / scenario::gravity);
-    double const chunk_time = std::sqrt(diameter / scenario::gravity);
+    double const fall_time = std::sqrt(2 * n.fill_top / s.trough.gravity);
+    double const chunk_time = std::sqrt(diameter / s.trough.gravity);
     double const mean_mass = n.mass / s.layer.grains;
     int const spheres = n.spheres_per_grain;
     data.set("integrator", integrator(s));
@@ -282,12 +345,12 @@ void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("fill_right", text(s.layer.width - (walls ? extent / 2 : 0)));
     data.set("fill_bottom", text(n.fill_bottom));
     data.set("fill_top", text(n.fill_top));
-    data.set("fill_speed", rounded(0.5 * std::sqrt(scenario::gravity * diameter)));
+    data.set("fill_speed", rounded(0.5 * std::sqrt(s.trough.gravity * diameter)));
     data.set("settle_chunk", std::to_string(std::max(1L, std::lround(chunk_time / step))));
     data.set("settle_chunks", std::to_string(static_cast<int>(20 * fall_time / chunk_time) + 200));
     data.set("settle_drag", rounded(mean_mass / (3 * chunk_time * spheres)));
     double const settled_mass = n.domain.open ? n.mass * n.settled_weight / n.weight : n.mass;
-    data.set("settled_energy", rounded(1e-7 * settled_mass * scenario::gravity * diameter));
+    data.set("settled_energy", rounded(1e-7 * settled_mass * s.trough.gravity * diameter));
     data.set("mass", text(n.mass));
     data.set("settled_mass", text(settled_mass));
 }
@@ -295,14 +358,14 @@ void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) 
 }  // namespace
 
 void describe_gravity(core::TemplateData& data, scenario::Scenario const& s) {
-    data.set("gravity", text(scenario::gravity));
+    data.set("gravity", text(s.trough.gravity));
     data.set("gravity_x", text(0 - std::sin(s.trough.inclination)));
     data.set("gravity_z", text(-std::cos(s.trough.inclination)));
 }
 
 void describe_settling_gravity(core::TemplateData& data, scenario::Scenario const& s) {
     if (!is_open(s) || s.trough.inclination >= 0) return;
-    data.set("gravity", text(scenario::gravity * std::cos(s.trough.inclination)));
+    data.set("gravity", text(s.trough.gravity * std::cos(s.trough.inclination)));
     data.set("gravity_x", "0");
     data.set("gravity_z", "-1");
 }

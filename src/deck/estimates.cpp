@@ -59,7 +59,7 @@ double impact_duration(prepare::PreparedCase const& c, double speed) {
 
 double bond_number(prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
-    double const weight = mean_mass(s) * scenario::gravity * std::cos(s.trough.inclination);
+    double const weight = mean_mass(s) * s.trough.gravity * std::cos(s.trough.inclination);
     return contact_of(c)->pull_off_force(mean_grain(s)) / weight;
 }
 
@@ -126,12 +126,14 @@ double work_of(prepare::PreparedCase const& c, double settlings, double cycles) 
     // 0.55, 2.2 and 10.6 s for 12,000 steps, and 301 grains in a chute of 242 and 2560 triangles 6 and 27 s
     // for 42,000. Flat floors have a few triangles only.
     constexpr double triangle_in_grains = 1.2;
-    double const settling = 5 * std::sqrt(2 * c.fill_top / scenario::gravity) / c.settle_time_step;
+    double const settling = 5 * std::sqrt(2 * c.fill_top / c.scenario.trough.gravity) / c.settle_time_step;
     // A harmonic of the drive along one axis, whose sines the engine works out in every step, takes as long
     // as 20 grains: 209 grains took 33 us for a step with a sinusoid, which has 2 of them, 51 us with 8 and
     // 156 us with 40. A sinusoid is part of the usual speed.
     constexpr double harmonic_in_grains = 20;
-    double const harmonics = static_cast<double>(c.motion.along.size() + c.motion.normal.size());
+    bool const is_record = c.scenario.trough.waveform && c.stages.empty();  // of which the engine has a sum
+    double const harmonics =
+        is_record ? 0 : static_cast<double>(c.motion.along.size() + c.motion.normal.size());
     double triangles = triangles_of_screen(c);
     if (c.domain.has_mesh())
         for (auto const& part : own_trough(c)) triangles += static_cast<double>(part.size());

@@ -4,6 +4,8 @@
 #include "core/hash.hpp"
 #include "deck/templates.hpp"
 
+#include <deque>
+#include <regex>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -27,6 +29,14 @@ core::TemplateTexts texts_with(scenario::DeckTemplates const& replaced) {
     return texts;
 }
 
+/// A template without its sections `also_...`, which are only in decks whose scenario asks for them, so that
+/// the ids of other cases stay.
+std::string for_all_decks(std::string const& text) {
+    static std::regex const section(R"(\{\{#(also_\w+)\}\}[\s\S]*?\{\{/\1\}\}\n?)"),
+        tag(R"(\{\{[\^/]also_\w+\}\}\n?)");
+    return std::regex_replace(std::regex_replace(text, section, ""), tag, "");
+}
+
 }  // namespace
 
 std::string render_template(std::string_view name, core::TemplateData const& data,
@@ -43,13 +53,15 @@ std::string render_template(std::string_view name, core::TemplateData const& dat
 std::string const& digest_of_templates() {
     static std::string const digest = [] {
         std::vector<std::string_view> all;
+        std::deque<std::string> texts;  // a deque, so that earlier texts stay where they are
         for (auto const& [name, text] : input_templates) {
             if (name.starts_with("probes/")) continue;
             all.push_back(name);
+            texts.push_back(for_all_decks(text));
             // Comments and blank lines change no deck.
-            for (std::size_t start = 0; start < text.size();) {
-                std::size_t const end = std::min(text.find('\n', start), text.size() - 1) + 1;
-                std::string_view const line = std::string_view(text).substr(start, end - start);
+            for (std::size_t start = 0; start < texts.back().size();) {
+                std::size_t const end = std::min(texts.back().find('\n', start), texts.back().size() - 1) + 1;
+                std::string_view const line = std::string_view(texts.back()).substr(start, end - start);
                 if (line != "\n" && !line.starts_with('#')) all.push_back(line);
                 start = end;
             }

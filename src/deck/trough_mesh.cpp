@@ -1,9 +1,10 @@
 #include "deck/trough_mesh.hpp"
 
-#include "scenario/model/trough_mesh.hpp"
+#include "scenario/model/surface_repair.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -86,6 +87,14 @@ std::vector<std::vector<scenario::Triangle>> own_trough(prepare::PreparedCase co
             (below == all.end() ? all.front() : *below).push_back(triangle);
     }
     return all;
+}
+
+double smallest_angle_of_mesh(prepare::PreparedCase const& prepared) {
+    double least = 180;
+    for (auto const& part : own_trough(prepared))
+        for (scenario::Triangle const& triangle : part)
+            least = std::min(least, scenario::smallest_angle(triangle) * 180 / std::numbers::pi);
+    return least;
 }
 
 std::string part_mesh(std::size_t part) {

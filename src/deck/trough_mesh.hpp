@@ -23,6 +23,14 @@ std::string flat_trough_stl(double length, double width, double edge);
 /// @pre prepared.domain.has_mesh()
 std::vector<std::vector<scenario::Triangle>> own_trough(prepare::PreparedCase const& prepared);
 
+/// The smallest angle of all triangles of own_trough(), degrees.
+double smallest_angle_of_mesh(prepare::PreparedCase const& prepared);
+
+/// Degrees: below it the engine wants the word curvature_tolerant.
+inline constexpr double least_angle_of_engine = 0.26;
+/// Degrees: below it the engine refuses a triangle.
+inline constexpr double hard_angle_of_engine = 0.06;
+
 /// The name of a part's mesh in the engine.
 std::string part_mesh(std::size_t part);
 /// The name of the file of that mesh.

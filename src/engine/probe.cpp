@@ -4,6 +4,7 @@
 #include "core/hash.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/time.hpp"
+#include "deck/deck.hpp"
 #include "deck/render.hpp"
 #include "deck/trough_mesh.hpp"
 #include "engine/contact_law.hpp"
@@ -116,8 +117,9 @@ namespace {
 
 /// Runs the deck in the folder. @return why the engine failed, an empty text when it did not; none if it was
 /// interrupted
-std::optional<std::string> run_deck(Engine const& engine, fs::path const& folder) {
-    for (auto const& [name, content] : probe_deck()) core::write_file_atomically(folder / name, content);
+std::optional<std::string> run_deck(Engine const& engine, fs::path const& folder,
+                                    std::map<std::string, std::string> const& files) {
+    for (auto const& [name, content] : files) core::write_file_atomically(folder / name, content);
     boost::asio::io_context context;
     boost::asio::signal_set signals(context);
     add_stop_signals(signals);
@@ -211,7 +213,7 @@ std::vector<ProbeResult> judge(std::vector<Bounce> const& bounces) {
 
 std::optional<Certificate> probe_engine(Engine const& engine, EngineIdentity const& identity) {
     core::TemporaryFolder const folder("vibrotrough-probe");
-    auto problem = run_deck(engine, folder.path());
+    auto problem = run_deck(engine, folder.path(), probe_deck());
     if (!problem) return {};
     std::vector<Bounce> bounces;
     if (problem->empty()) bounces = by_engine(folder.path());
@@ -220,6 +222,19 @@ std::optional<Certificate> probe_engine(Engine const& engine, EngineIdentity con
     Certificate certificate{identity, core::utc_now(), {}, *problem};
     if (problem->empty()) certificate.probes = judge(bounces);
     return certificate;
+}
+
+std::optional<std::string> read_meshes(Engine const& engine, deck::Deck const& deck) {
+    std::map<std::string, std::string> files = deck.settle_files;
+    std::string text = std::move(files.extract(deck::settle_file).mapped());
+    // What follows the meshes pours the grains in.
+    text.resize(std::min(text.size(), text.find("\nfix             integrate ")));
+    // Without a grain the engine has no size to sort grains by.
+    constexpr std::string_view map = "atom_modify     map array";
+    if (auto const at = text.find(map); at != text.npos) text.insert(at + map.size(), " sort 0 0");
+    files["in.liggghts"] = text + fmt::format("\nrun 0\nprint \"{} step 0\"\n", deck::end_marker);
+    core::TemporaryFolder const folder("vibrotrough-mesh");
+    return run_deck(engine, folder.path(), files);
 }
 
 std::string digest_of_probes() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "deck/deck.hpp"
 #include "engine/certificate.hpp"
 #include "engine/engine.hpp"
 
@@ -15,6 +16,12 @@ namespace vibrotrough::engine {
 /// std::nullopt is returned.
 /// @throws MissingError when a file cannot be written or the engine cannot be started
 std::optional<Certificate> probe_engine(Engine const& engine, EngineIdentity const& identity);
+
+/// Lets the engine read the meshes of a deck in a temporary folder, which takes about a second, so that it
+/// refuses them before grains are poured in and not in every packing.
+/// @return what it says, an empty text when it takes them; none when it was interrupted
+/// @throws MissingError when a file cannot be written or the engine cannot be started
+std::optional<std::string> read_meshes(Engine const& engine, deck::Deck const& deck);
 
 /// The files of the deck by their names.
 std::map<std::string, std::string> probe_deck();

@@ -1,16 +1,21 @@
 #include "evaluate/by_hand.hpp"
 
 #include "core/atomic_file.hpp"
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "deck/deck.hpp"
 #include "evaluate/case.hpp"
+#include "evaluate/layer.hpp"
 #include "evaluate/packing.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <complex>
 #include <map>
+#include <numbers>
 #include <regex>
 
 #include <fmt/format.h>
@@ -86,6 +91,71 @@ std::optional<int> steps_per_cycle(fs::path const& deck) {
     return steps >= 1 ? std::optional(steps) : std::nullopt;
 }
 
+/// The number X of a line "timestep X" of a deck; none when there is no such line.
+std::optional<double> time_step(std::string const& deck) {
+    static std::regex const line(R"((^|\n)\s*timestep\s+([0-9.eE+-]+))");
+    std::smatch found;
+    if (!std::regex_search(deck, found, line)) return {};
+    return core::csv_number(found[2].str(), ',', core::CsvNumbers::finite);
+}
+
+/// The line of a deck with its contact of grains.
+std::string contact_line(std::string const& deck) {
+    static std::regex const line(R"((^|\n)\s*pair_style\s+([^\n#]*))");
+    std::smatch found;
+    return std::regex_search(deck, found, line) ? found[2].str() : "";
+}
+
+/// Amplitude of the first harmonic of a displacement with a value for each phase, m.
+double first_harmonic(std::vector<double> const& values) {
+    constexpr int lines = measure::PhaseSeries::per_cycle;
+    std::size_t const count = values.size() / lines * lines;
+    std::complex<double> sum = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        sum += values[i] * std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(i) / lines);
+    return 2 * std::abs(sum) / static_cast<double>(std::max<std::size_t>(1, count));
+}
+
+/// The drive that was run: of a deck that was edited it differs from the scenario's.
+void take_drive(HandRun& run, fs::path const& folder) {
+    constexpr double as_asked = 1e-3;  // the same drive, but for 15 digits and whole steps per cycle
+    scenario::Scenario scenario = run.prepared.scenario;
+    if (!scenario.stages.empty() || !is_file(folder / deck::drive_file)) return;
+    std::string const text = core::read_file(folder / deck::drive_file, core::largest_note);
+    deck::Deck const as_written = deck::make_deck(run.prepared, {1});
+    if (contact_line(text) != contact_line(as_written.files.at(deck::drive_file))) {
+        run.has_known_contact = false;
+        run.changes.push_back(
+            fmt::format("the deck has the contact '{}', of which the numerical errors are not known",
+                        core::harmless(contact_line(text))));
+    }
+    scenario::Trough& trough = scenario.trough;
+    int const steps = steps_per_cycle(folder / deck::drive_file).value_or(run.prepared.time.steps_per_cycle);
+    double const frequency = 1 / (steps * time_step(text).value_or(1 / (trough.frequency * steps)));
+    prepare::PreparedCase as_run = run.prepared;
+    as_run.time.steps_per_cycle = steps;
+    measure::PhaseSeries const phases = packing_phases(as_run, read_packing_files(folder).phases);
+    double const along = first_harmonic(phases.trough_x), normal = first_harmonic(phases.trough_z);
+    double const amplitude = std::hypot(along, normal), angle = std::atan2(normal, along);
+    if (phases.cycles() == 0 || !(amplitude > 0)) return;
+    if (std::abs(amplitude / trough.amplitude - 1) < as_asked &&
+        std::abs(angle - trough.vibration_angle) < as_asked &&
+        std::abs(frequency / trough.frequency - 1) < as_asked)
+        return;
+    run.changes.push_back(
+        fmt::format("the trough moved with an amplitude of {:.6g} mm at {:.5g} deg and {:.6g} Hz, and not "
+                    "with {:.6g} mm, "
+                    "{:.5g} deg and {:.6g} Hz of the scenario",
+                    1e3 * amplitude, scenario::in_degrees(angle), frequency, 1e3 * trough.amplitude,
+                    scenario::in_degrees(trough.vibration_angle), trough.frequency));
+    trough.amplitude = amplitude;
+    trough.vibration_angle = angle;
+    trough.frequency = frequency;
+    trough.given = {};
+    run.prepared = prepare::prepare_case(scenario);
+    run.prepared.time = prepare::with_steps(run.prepared.time, steps);
+}
+
 /// How the engine's own output says that the run ended.
 std::string end_of_run(fs::path const& folder) {
     for (char const* name : {"engine.out", "log.liggghts"}) {
@@ -136,6 +206,7 @@ HandRun measure_by_hand(fs::path const& folder, fs::path const& scenario_file) {
     std::vector<fs::path> const folders = folders_with_runs(folder);
     fs::path const file = find_scenario(scenario_file, folders.front());
     HandRun run{file, read_case(file), {}, 0, {}, core::Outcome::finished};
+    take_drive(run, folders.front());
     for (fs::path const& one : folders) run.packings.push_back(measure_packing(run.prepared, one));
     run.cycles_used = std::ranges::min(run.packings, {}, &HandPacking::cycles).cycles;
     std::vector<measure::PackingValues> values;

@@ -15,8 +15,8 @@ namespace {
 
 measure::LayerFacts facts_of(store::PackingRecord const& record, scenario::Scenario const& s) {
     return {record.mass,
-            -scenario::gravity * std::sin(s.trough.inclination),
-            -scenario::gravity * std::cos(s.trough.inclination),
+            -s.trough.gravity * std::sin(s.trough.inclination),
+            -s.trough.gravity * std::cos(s.trough.inclination),
             s.trough.frequency,
             record.estimate.discarded,
             record.estimate.discarded + record.estimate.measured};
@@ -55,7 +55,7 @@ void add_friction_numbers(measure::LayerMotion& motion, prepare::PreparedCase co
     if (s.trough.side_wall_friction || s.trough.mesh || !s.materials.empty()) return;
     motion.landing_friction = measure::landing_friction(motion);
     motion.efficiency_by_normal_force = measure::efficiency_by_normal_force(
-        motion.curves, {prepared.mass, s.trough.friction, -scenario::gravity * std::sin(s.trough.inclination),
+        motion.curves, {prepared.mass, s.trough.friction, -s.trough.gravity * std::sin(s.trough.inclination),
                         s.trough.frequency, prepared.velocity_scale});
 }
 

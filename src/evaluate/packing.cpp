@@ -51,7 +51,7 @@ std::vector<double> efficiency_of(prepare::PreparedCase const& prepared, measure
     // screen come and go.
     if (prepared.clump || prepared.domain.loses_grains())
         return measure::velocity_efficiency_by_mean(series, prepared.velocity_scale);
-    return measure::velocity_efficiency(series, s.trough.amplitude * std::cos(s.trough.vibration_angle));
+    return measure::velocity_efficiency(series, length_scale(s.trough));
 }
 
 measure::Precision wanted(prepare::PreparedCase const& prepared) {

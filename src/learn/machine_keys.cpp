@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <variant>
 
 namespace vibrotrough::learn {
@@ -20,7 +21,9 @@ theory::PointMass point_of(theory::Drive const& drive, double friction) {
 }
 
 double value_at(scenario::Key const& key, theory::Drive const& drive) {
-    scenario::Scenario machine{};
+    // On the heap, because GCC 12 warns of texts on the stack that it takes for uninitialized.
+    auto const made = std::make_unique<scenario::Scenario>();
+    scenario::Scenario& machine = *made;
     machine.trough.inclination = drive.inclination;
     machine.trough.vibration_angle = drive.vibration_angle;
     machine.trough.amplitude = drive.amplitude;

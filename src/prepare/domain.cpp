@@ -1,9 +1,24 @@
 #include "prepare/domain.hpp"
 
+#include "scenario/model/surface_repair.hpp"
+
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 namespace vibrotrough::prepare {
+
+namespace {
+
+/// A surface whose triangles all have angles of half a degree, the engine's soft limit, stays as it is.
+std::vector<scenario::Triangle> without_needles_if_any(std::vector<scenario::Triangle> surface, double edge) {
+    constexpr double needle = 0.5 / 180 * std::numbers::pi;
+    bool const has_any = std::ranges::any_of(
+        surface, [](scenario::Triangle const& t) { return scenario::smallest_angle(t) < needle; });
+    return has_any ? scenario::without_needles(surface, edge) : surface;
+}
+
+}  // namespace
 
 Domain domain_of(scenario::Scenario const& s) {
     bool const has_walls = s.trough.side_wall_friction.has_value();
@@ -26,6 +41,10 @@ Domain domain_of(scenario::Scenario const& s) {
         auto const part = std::ranges::find(domain.parts, mesh.parts[mesh.part_of[i]], &TroughPart::name);
         (part != domain.parts.end() ? part->surface : domain.surface).push_back(triangle);
     }
+    double const edge = 3 * mean_diameter(s);
+    domain.surface = without_needles_if_any(std::move(domain.surface), edge);
+    for (TroughPart& part : domain.parts)
+        part.surface = without_needles_if_any(std::move(part.surface), edge);
     return domain;
 }
 

@@ -13,7 +13,7 @@ double speed_of_feed(OpenTrough const& open, PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     double const alpha = s.trough.inclination, downhill = std::max(0.0, -std::sin(alpha)) * s.layer.length;
     double const drop = std::cos(alpha) * open.feed_top + downhill;
-    return std::sqrt(open.feed_speed * open.feed_speed + 2 * scenario::gravity * drop);
+    return std::sqrt(open.feed_speed * open.feed_speed + 2 * s.trough.gravity * drop);
 }
 
 /// How much faster a light grain of a mixture can be than a heavy one that hits it: 2 M / (M + m), of an
@@ -35,7 +35,7 @@ double speed_of_light_grains(PreparedCase const& c) {
 /// of its floor to the lowest one, or with this one.
 double longest_flight(OpenTrough const& open, PreparedCase const& c, double fed) {
     double const thrown = std::hypot(2 * speed_of_light_grains(c) * c.largest_speed,
-                                     std::sqrt(2 * scenario::gravity * c.domain.floor_top));
+                                     std::sqrt(2 * c.scenario.trough.gravity * c.domain.floor_top));
     return std::max(thrown, fed) * open.longest_cycle + 2 * c.largest_extent;
 }
 
@@ -90,8 +90,8 @@ OpenTrough open_trough(PreparedCase const& c) {
     // A grain of the feed can be thrown to the edge, as far as a ballistic flight is long at most (v^2 / g),
     // with the speed of its fall. The box of a longer trough is not made longer for it.
     double const fed = speed_of_feed(open, c);
-    double const flight = longest_flight(open, c, way < fed * fed / scenario::gravity ? fed : 0);
-    double const fall = scenario::gravity * period * period / 2;
+    double const flight = longest_flight(open, c, way < fed * fed / s.trough.gravity ? fed : 0);
+    double const fall = s.trough.gravity * period * period / 2;
     open.bin = length / std::round(length / (2 * mean_diameter(s)));
     open.box_start = -open.bin * std::ceil((excursion + 2 * grain) / open.bin);
     open.box_end = open.out_x + flight + fall * std::abs(std::sin(s.trough.inclination));

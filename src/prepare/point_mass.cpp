@@ -20,14 +20,16 @@ theory::Inputs plain_inputs(scenario::Scenario const& scenario) {
         // surface.
         inputs.set(theory::Input::machine_number, machine_number(trough));
     }
-    inputs.set(theory::Input::tan_vibration_angle, std::tan(trough.vibration_angle));
+    // A trough that vibrates normal to itself only has its whole amplitude as the unit along it.
+    inputs.set(theory::Input::tan_vibration_angle,
+               is_vertical(trough) ? 1 : std::tan(trough.vibration_angle));
     inputs.set(theory::Input::tan_inclination, std::tan(trough.inclination));
     inputs.set(theory::Input::friction, mean_trough_friction(scenario));
     return inputs;
 }
 
 bool is_plain_sinusoid(scenario::Trough const& trough) {
-    return trough.along_phase == 0 && trough.harmonics.empty() && !trough.waveform;
+    return trough.along_phase == 0 && trough.harmonics.empty() && !trough.waveform && !is_vertical(trough);
 }
 
 std::optional<scenario::DriveTerm> fundamental(std::vector<scenario::DriveTerm> const& terms) {
@@ -54,16 +56,16 @@ std::vector<theory::Harmonic> harmonics(std::vector<scenario::DriveTerm> const& 
 /// trough. The unit along the trough stays r cos(beta), because the efficiency is expressed in it.
 void set_drive(PointMassInputs& inputs, scenario::Trough const& trough, scenario::DriveMotion const& motion) {
     theory::Conveyor& conveyor = inputs.conveyor;
-    double const along_unit = trough.amplitude * std::cos(trough.vibration_angle);
+    double const along_unit = length_scale(trough);
     auto const along = fundamental(motion.along), normal = fundamental(motion.normal);
     double const shift = normal ? normal->phase : along ? along->phase : 0;
     inputs.start_phase = shift;
     if (normal) {
         // A measured fundamental may differ by up to 1 % from the amplitude and angle of the campaign file.
-        if (trough.waveform) {
+        if (trough.waveform || is_vertical(trough)) {
             double const omega = angular_frequency(trough);
             conveyor.point.throw_number =
-                omega * omega * normal->amplitude / (scenario::gravity * std::cos(trough.inclination));
+                omega * omega * normal->amplitude / (trough.gravity * std::cos(trough.inclination));
             conveyor.point.tan_vibration_angle = normal->amplitude / along_unit;
         }
         conveyor.normal = harmonics(motion.normal, normal->amplitude, shift);

@@ -117,7 +117,7 @@ void prepare_grains(PreparedCase& c) {
         c.mass += size.count * density * (c.clump ? c.clump->volume : sphere);
         one_of_each += density * sphere;
     }
-    c.weight = c.mass * scenario::gravity * std::cos(s.trough.inclination);
+    c.weight = c.mass * s.trough.gravity * std::cos(s.trough.inclination);
     c.settled_grains = is_open(s) ? static_cast<int>(c.classes.size()) : s.layer.grains;
     c.settled_weight = is_open(s) ? c.weight * one_of_each / c.mass : c.weight;
     c.layer_height = layer_height(s);
@@ -152,7 +152,7 @@ void prepare_time(PreparedCase& c) {
     // The spheres of a plate have the diameter of the grains, so only clumps need a radius of their own.
     double const radius = is_clump(s.grains) ? c.clump->smallest_radius : smallest_diameter(s) / 2;
     StepLimits const limits{radius, c.largest_speed, c.highest_order};
-    c.settle_speed = settling_speed(c.fill_top);
+    c.settle_speed = settling_speed(c.fill_top, s.trough.gravity);
     c.settle_time_step = settling_time_step(s, limits, c.fill_top);
     if (c.stages.empty()) {
         c.time = choose_time_step(s, limits);
@@ -169,8 +169,8 @@ void prepare_time(PreparedCase& c) {
 /// The box is so high that it holds a grain at ten times the height that a throw with the trough's largest
 /// speed reaches.
 void prepare_box(PreparedCase& c) {
-    double const flight =
-        c.largest_speed * c.largest_speed / (2 * scenario::gravity * std::cos(c.scenario.trough.inclination));
+    double const flight = c.largest_speed * c.largest_speed /
+                          (2 * c.scenario.trough.gravity * std::cos(c.scenario.trough.inclination));
     double const excursion = c.largest_excursion;
     c.box_top = in_powers_of_four(8 * (c.fill_top + 5 * c.largest_extent),
                                   c.fill_top + 10 * flight + 5 * c.largest_extent);

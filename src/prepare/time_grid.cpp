@@ -110,13 +110,13 @@ TimeGrid with_steps(TimeGrid grid, int steps_per_cycle) {
             ratio * grid.contact_fraction, grid.impact_speed};
 }
 
-double settling_speed(double fall_height) {
-    return std::sqrt(2 * scenario::gravity * fall_height);
+double settling_speed(double fall_height, double gravity) {
+    return std::sqrt(2 * gravity * fall_height);
 }
 
 double settling_time_step(scenario::Scenario const& s, StepLimits const& limits, double fall_height) {
     if (s.layer.block != scenario::Block::none) return block_duration(s) / block_steps;
-    double const speed = settling_speed(fall_height);
+    double const speed = settling_speed(fall_height, s.trough.gravity);
     return std::min(s.solver.rayleigh_fraction * rayleigh_time(s, limits.smallest_radius),
                     0.1 * contact_time(s, limits.smallest_radius, speed));
 }

@@ -44,8 +44,8 @@ struct StepLimits {
 /// @throws core::InputError when a cycle would take more than 1e8 steps
 TimeGrid choose_time_step(scenario::Scenario const& scenario, StepLimits const& limits);
 
-/// Speed of a grain after a free fall from `fall_height` (m), m/s.
-double settling_speed(double fall_height);
+/// Speed of a grain after a free fall from `fall_height` (m), m/s. @param gravity  m/s^2
+double settling_speed(double fall_height, double gravity);
 
 /// The time step for settling, s. The limits are the Rayleigh time and the contact time at the speed of
 /// a free fall from `fall_height` (m); the drive does not matter.

@@ -55,7 +55,7 @@ std::optional<double> dissipation_fraction(Case record) {
 std::optional<double> gravity_power(Case record) {
     if (record.packings.empty() || !record.estimate.mean) return {};
     scenario::Trough const& trough = record.scenario.trough;
-    return -record.packings.front().mass * scenario::gravity * std::sin(trough.inclination) *
+    return -record.packings.front().mass * trough.gravity * std::sin(trough.inclination) *
            *record.estimate.mean * velocity_scale(trough);
 }
 

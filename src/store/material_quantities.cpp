@@ -66,7 +66,7 @@ double efficiency_of(Case record, PackingRecord const& packing, std::size_t mate
     if (is_open(record.scenario))
         return of_flow(packing.open.materials.speed, material) / velocity_scale(trough);
     return measure::material_efficiency(packing.series.materials[material], packing.estimate.discarded,
-                                        trough.amplitude * std::cos(trough.vibration_angle));
+                                        length_scale(trough));
 }
 
 double lead_of(Case record, PackingRecord const& packing, std::size_t material) {

@@ -2,12 +2,14 @@
 
 #include "core/temporary_folder.hpp"
 #include "example_campaign.hpp"
+#include "scenario/model/surface_repair.hpp"
 #include "scenario/reader/written_campaign.hpp"
 #include "single_case.hpp"
 
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -17,6 +19,8 @@ namespace vibrotrough::scenario {
 namespace {
 
 using testing::HasSubstr;
+
+constexpr double pi = std::numbers::pi;
 
 /// Two triangles of a rectangle with these corners, in order.
 void add_rectangle(std::vector<Triangle>& mesh, Point a, Point b, Point c, Point d) {
@@ -128,15 +132,16 @@ TEST(TroughMesh, SeveralFilesArePartsOfTheMesh) {
 // Text files of CAD programs may hold a solid for each part of a trough. Names become such as a campaign file
 // may have.
 TEST(TroughMesh, SolidsOfATextArePartsOfTheMesh) {
-    std::vector<Triangle> floor, liner;
+    std::vector<Triangle> floor, liner, end;
     add_rectangle(floor, {0, 0, 0}, {30, 0, 0}, {30, 20, 0}, {0, 20, 0});
     add_rectangle(liner, {30, 0, 0}, {40, 0, 0}, {40, 20, 0}, {30, 20, 0});
+    add_rectangle(end, {40, 0, 0}, {50, 0, 0}, {50, 20, 0}, {40, 20, 0});
     std::string const text =
-        stl_text("floor sheet 2 mm", floor) + stl_text("Liner", liner) + stl_text("vertex", liner);
+        stl_text("floor sheet 2 mm", floor) + stl_text("Liner", liner) + stl_text("vertex", end);
     auto const mesh = read_trough_mesh({{"a.stl", text}});
     EXPECT_THAT(mesh->parts, testing::ElementsAre("floor_sheet_2_mm", "Liner", "vertex"));
     EXPECT_THAT(mesh->part_of, testing::ElementsAre(0, 0, 1, 1, 2, 2));
-    EXPECT_EQ(mesh->extent, (Point{40, 20, 0})) << "they have one origin";
+    EXPECT_EQ(mesh->extent, (Point{50, 20, 0})) << "they have one origin";
     EXPECT_DOUBLE_EQ(mesh->share_in_plan("Liner"), 200.0 / 1000);  // of 600 + 200 + 200 mm2
     EXPECT_EQ(mesh->share_in_plan("rubber"), 0);
     EXPECT_THAT(read_trough_mesh({{"a.stl", stl_text("one", floor) + stl_text("one", liner)}})->parts,
@@ -210,6 +215,48 @@ TEST(TroughMesh, IsDividedWithoutGaps) {
     }
 }
 
+// What changes nothing of the surface is mended and said: a copy (turned, too), a triangle without area,
+// corners that rounding has moved, and a corner in the edge of another triangle.
+TEST(TroughMesh, WhatIsHarmlessIsMended) {
+    std::vector<Triangle> mesh = vee();
+    mesh.push_back({mesh[1][2], mesh[1][1], mesh[1][0]});
+    mesh.push_back({{{5, 0, 0}, {20, 0, 0}, {41, 0, 0}}});
+    mesh[2][1][1] += 1e-5;
+    auto const mended = read(mesh);
+    EXPECT_NEAR(area_of(mended->triangles), area_of(vee()), 1e-3);
+    ASSERT_EQ(mended->repairs.size(), 3u);
+    EXPECT_THAT(mended->repairs[0], HasSubstr("1 corners were joined"));
+    EXPECT_THAT(mended->repairs[1],
+                HasSubstr("1 triangles without area were left out: triangle 6 at (5, 0, 0)"));
+    EXPECT_THAT(mended->repairs[2], HasSubstr("1 copies of triangles were left out: triangle 5"));
+
+    std::vector<Triangle> split = vee();
+    split[0] = {{{5, -9, 9}, {41, -9, 9}, {23, -4.5, 4.5}}};
+    split.push_back({{{41, -9, 9}, {41, 0, 0}, {23, -4.5, 4.5}}});
+    auto const divided_there = read(split);
+    ASSERT_EQ(divided_there->repairs.size(), 1u);
+    EXPECT_THAT(divided_there->repairs[0],
+                HasSubstr("1 edges were divided where a corner lies in them: at (23, -4.5, 4.5)"));
+    EXPECT_EQ(divided_there->triangles.size(), 6u);
+    EXPECT_NEAR(area_of(divided_there->triangles), area_of(vee()), 1e-9);
+}
+
+// A strip of 1 x 600 has angles of 0.1 degrees, below the engine's 0.26. A row of triangles with legs of 1
+// and 9 to 15 has 3 degrees at least, and the same area.
+TEST(TroughMesh, NeedlesBecomeStout) {
+    std::vector<Triangle> strips;
+    for (int i = 0; i < 4; ++i) {
+        double const y = i, z = 0.1 * i * i;
+        add_rectangle(strips, {0, y, z}, {600, y, z}, {600, y + 1, 0.1 * (i + 1) * (i + 1)},
+                      {0, y + 1, 0.1 * (i + 1) * (i + 1)});
+    }
+    auto const stout = divided(without_needles(strips, 15), 15);
+    EXPECT_NEAR(area_of(stout), area_of(strips), 1e-9 * area_of(strips));
+    double least = pi;
+    for (Triangle const& triangle : stout) least = std::min(least, smallest_angle(triangle));
+    EXPECT_GT(least * 180 / pi, 2);
+}
+
 TEST(TroughMesh, WhatIsWrongIsSaid) {
     auto const error = [](std::string const& content) { return error_of_text(content); };
     EXPECT_EQ(error(""), "it is neither a text nor a binary STL");
@@ -220,12 +267,19 @@ TEST(TroughMesh, WhatIsWrongIsSaid) {
     std::ranges::transform(capitals, capitals.begin(), [](unsigned char c) { return std::toupper(c); });
     EXPECT_EQ(error(capitals), "no error");
     EXPECT_EQ(error("solid a\nvertex 1 2 3\n"), "its last triangle has fewer than three corners");
-    EXPECT_EQ(error(stl_text("a", {{{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}}}})), "triangle 1 has no area");
+    EXPECT_EQ(error(stl_text("a", {{{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}}}})),
+              "none of its triangles has an area");
+    std::string const text = stl_text("a", vee());
+    EXPECT_EQ(error(text.substr(0, text.find("endfacet"))),
+              "it ends within triangle 1, so that a part of it is missing");
+    EXPECT_THAT(error("solid a\nvertex 0,5 1,25 2\n"), HasSubstr("triangle 1 has decimal commas (0,5)"));
     EXPECT_EQ(error(stl_text("a", {{{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}}})),
               "its surface has no length or no width");
     EXPECT_THAT(error("solid a\nvertex nan 0 0\nvertex 1 0 0\nvertex 0 1 0\n"), HasSubstr("triangle 1"));
     std::string const whole = binary_stl(vee());
-    EXPECT_EQ(error(whole.substr(0, whole.size() - 1)), "it is neither a text nor a binary STL");
+    EXPECT_EQ(error(whole.substr(0, whole.size() - 1)),
+              "it is a binary STL of 4 triangles by its header, but it has room for 3.98; a part of it may "
+              "be missing");
 }
 
 /// Campaigns with a mesh in their folder.
@@ -321,7 +375,7 @@ TEST_F(MeshCampaign, MistakesAreNamed) {
     EXPECT_THAT(error(on_mesh(with("length = \"36 mm\"", "length = \"35 mm\""))),
                 HasSubstr("trough.mesh: vee.stl: it is 36 mm long, and layer.length is 35 mm"));
     EXPECT_THAT(error(on_mesh(with("restitution = 0.5", "restitution = 0.5\nmesh_unit = \"m\""))),
-                HasSubstr("is mesh_unit wrong?"));
+                HasSubstr("write mesh_unit = \"mm\""));
     EXPECT_THAT(error(on_mesh(with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0.1"))),
                 HasSubstr("does not go with trough.mesh"));
     EXPECT_THAT(error(on_mesh(with("height = \"12 mm\"", "block = \"point\""))),

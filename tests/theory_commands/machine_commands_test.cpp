@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string const machine = "--rpm 1000 --stroke '8 mm' --vibration-angle '25 deg' ";
+std::string const given_machine = "--rpm 1000 --stroke '8 mm' --vibration-angle '25 deg' ";
 std::string const plant =
     "design --mass-flow '12 t/h' --width '400 mm' --length '3 m' --rpm 960 --stroke '8 mm' "
     "--vibration-angle '30 deg' --layer-depth '20 to 60 mm' ";
@@ -25,24 +25,25 @@ nlohmann::json answer_of(std::string const& arguments, int exit_code = 0) {
 // that roll freely. Who does not know the grains gets an interval that holds it.
 TEST(Machine, IsPredictedAsALayerAndNotAsAPointMass) {
     std::string const spheres = "--grain-diameter '3 mm' --layer-depth '12 mm' --rolling-friction 0";
-    auto const found = answer_of("predict " + machine + "--friction 0.3");
+    auto const found = answer_of("predict " + given_machine + "--friction 0.3");
     EXPECT_NEAR(found.at("point_mass_speed_m_per_s"), 0.187, 5e-4);
-    double const speed = answer_of("predict " + machine + "--friction 0.3 " + spheres).at("speed_m_per_s");
+    double const speed =
+        answer_of("predict " + given_machine + "--friction 0.3 " + spheres).at("speed_m_per_s");
     EXPECT_NEAR(speed, 0.324, 5e-4);
     EXPECT_NEAR(found.at("speed_m_per_s").get<double>(), speed,
                 found.at("speed_half_width_m_per_s").get<double>());
     EXPECT_TRUE(found.at("mass_flow_t_per_h").is_null());
-    Answer const text = run_program("predict " + machine + "--friction 0.3");
+    Answer const text = run_program("predict " + given_machine + "--friction 0.3");
     for (char const* const told : {"Grains that roll", "write --width", "the depth of the layer", "mode "})
         EXPECT_THAT(text.text, HasSubstr(told));
-    EXPECT_THAT(run_program("theory point " + machine + "--friction 0.3").text,
+    EXPECT_THAT(run_program("theory point " + given_machine + "--friction 0.3").text,
                 HasSubstr("'vibrotrough predict'"));
 }
 
 // m = rho w h v; an input that is less exact has a wider interval.
 TEST(Machine, HasAMassFlow) {
     std::string const layer =
-        machine +
+        given_machine +
         "--width '400 mm' --layer-depth '40 mm' --bulk-density '600 kg/m3' --grain-diameter '4 mm' ";
     auto const exact = answer_of("predict " + layer + "--friction 0.3");
     EXPECT_NEAR(exact.at("mass_flow_t_per_h"),
@@ -54,7 +55,7 @@ TEST(Machine, HasAMassFlow) {
 TEST(Machine, AsksForWhatIsMissing) {
     EXPECT_EQ(run_program("predict").exit_code, 2);
     EXPECT_THAT(run_program("predict --rpm 1000 --friction 0.3").text, HasSubstr("--stroke"));
-    EXPECT_THAT(run_program("predict campaign.toml " + machine).text,
+    EXPECT_THAT(run_program("predict campaign.toml " + given_machine).text,
                 HasSubstr("either a campaign or a machine"));
 }
 
@@ -69,7 +70,7 @@ TEST(Machine, GrainsThatNoModelKnowsHaveAReason) {
         Answer const design = run_program(plant + words);
         EXPECT_EQ(design.exit_code, 2) << words;
         EXPECT_THAT(design.text, HasSubstr(reason));
-        EXPECT_THAT(run_program("predict " + machine + words).text, HasSubstr(reason));
+        EXPECT_THAT(run_program("predict " + given_machine + words).text, HasSubstr(reason));
     }
     for (std::string const words :
          {"--material 'wood pellets'", "--material gravel --grain-diameter '0 to 30 mm'"}) {
@@ -77,15 +78,17 @@ TEST(Machine, GrainsThatNoModelKnowsHaveAReason) {
         EXPECT_TRUE(found.at("probability").is_null()) << words;
         EXPECT_THAT(found.at("sentence").get<std::string>(), HasSubstr("Not tested"));
     }
-    EXPECT_THAT(run_program("predict " + machine + "--material gravel --grain-diameter '0 to 30 mm'").text,
-                HasSubstr("Alone, such a layer"));
-    EXPECT_THAT(run_program("predict " + machine + "--material wheet").text, HasSubstr("was wheat meant?"));
+    EXPECT_THAT(
+        run_program("predict " + given_machine + "--material gravel --grain-diameter '0 to 30 mm'").text,
+        HasSubstr("Alone, such a layer"));
+    EXPECT_THAT(run_program("predict " + given_machine + "--material wheet").text,
+                HasSubstr("was wheat meant?"));
 }
 
 TEST(Machine, IsDescribedByTheNameOfItsMaterial) {
-    auto const found = answer_of("predict " + machine + "--material 'plastic pellets'");
+    auto const found = answer_of("predict " + given_machine + "--material 'plastic pellets'");
     EXPECT_GT(found.at("speed_m_per_s"), 0.2);
-    auto const own = answer_of("predict " + machine + "--material 'plastic pellets' --friction 0.3");
+    auto const own = answer_of("predict " + given_machine + "--material 'plastic pellets' --friction 0.3");
     EXPECT_LT(own.at("half_width"), found.at("half_width"));
 }
 

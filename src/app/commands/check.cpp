@@ -1,4 +1,5 @@
 #include "app/commands/command.hpp"
+#include "app/engine_certificate.hpp"
 #include "deck/campaign_check.hpp"
 #include "deck/estimates.hpp"
 #include "scenario/reader/swept_keys.hpp"
@@ -62,6 +63,7 @@ void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& f
                     {"warnings", found.warnings()},
                     {"errors", found.errors()},
                     {"grain_steps_per_cpu_second", usual_speed},
+                    {"remarks", found.remarks},
                     {"expected_bytes", found.bytes},
                     {"largest_bytes", found.largest_bytes},
                     {"engine_memory_bytes", found.engine_memory},
@@ -135,6 +137,7 @@ void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& f
         if (item.worst.severity != deck::Severity::fine)
             fmt::print("{}: {}\n", to_string(item.worst.severity), describe(item, found.cases));
     }
+    for (std::string const& remark : found.remarks) fmt::print("{}\n", remark);
     print_densities(campaign);
     print_feeds(campaign);
     print_moduli(found);
@@ -150,10 +153,24 @@ void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& f
     fmt::print("\n");
 }
 
+/// Where there is an engine, it reads the meshes; without one their own checks have to do.
+void try_meshes_if_any(std::string const& file, scenario::Campaign const& campaign) {
+    if (std::ranges::none_of(campaign.cases, [](auto const& one) { return one.trough.mesh != nullptr; }))
+        return;
+    std::optional<engine::Engine> engine;
+    try {
+        engine = engine::find_engine({});
+    } catch (core::MissingError const&) {
+        return;
+    }
+    try_meshes(*engine, file, campaign.cases);
+}
+
 int run_check(CheckArguments const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
     deck::CampaignCheck const found = deck::check_campaign(campaign);
     options.json ? print_json(campaign, found) : print_text(campaign, found);
+    try_meshes_if_any(options.campaign_file, campaign);
     return found.errors() > 0 ? wrong_input : all_well;
 }
 

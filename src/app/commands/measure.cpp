@@ -29,9 +29,11 @@ measure::PackingEstimate by_itself(evaluate::HandPacking const& packing,
                                      {plan.confidence, plan.half_width});
 }
 
-/// The bound of the numerical errors; none for a rigid block, of whose contact no bound is known.
+/// The bound of the numerical errors; none for a rigid block, or a contact that somebody wrote into the deck,
+/// of which no bound is known.
 std::optional<double> numerical_error(evaluate::HandRun const& run) {
-    if (run.prepared.scenario.layer.block != scenario::Block::none) return {};
+    bool const is_block = run.prepared.scenario.layer.block != scenario::Block::none;
+    if (is_block || !run.has_known_contact) return {};
     return run.prepared.numerics.total();
 }
 
@@ -44,7 +46,7 @@ std::string parts_of_interval(evaluate::HandRun const& run) {
 
 /// Of the velocity efficiency, for statistics and numerics together.
 std::optional<double> whole_half_width(evaluate::HandRun const& run) {
-    if (!run.estimate.half_width) return {};
+    if (!run.estimate.half_width || !numerical_error(run)) return run.estimate.half_width;
     return prepare::whole_half_width(*run.estimate.half_width, run.prepared.numerics);
 }
 
@@ -88,6 +90,7 @@ void print_json(evaluate::HandRun const& run) {
                     {"cycles_measured", e.measured},
                     {"not_covered", open.empty() ? Json(nullptr) : Json(open)},
                     {"scenario", run.scenario_file.string()},
+                    {"changes", run.changes},
                     {"packings", packings}};
     fmt::print("{}\n", json.dump(2, ' ', true, Json::error_handler_t::replace));
 }
@@ -114,6 +117,7 @@ void print_text(evaluate::HandRun const& run) {
     scenario::MeasurementPlan const& plan = run.prepared.scenario.measure;
     for (evaluate::HandPacking const& one : run.packings) print_packing(one, plan, run.cycles_used);
     fmt::print("scenario: {}\n", run.scenario_file.string());
+    for (std::string const& change : run.changes) fmt::print("edited: {}\n", change);
     if (std::string const open = not_covered(run.prepared.scenario.engine); !open.empty())
         fmt::print("not covered by the engine's certificate: {}\n", open);
     std::string const interval =
@@ -156,7 +160,7 @@ void add_measure(CLI::App& program, int& exit_code) {
     command->footer(
         R"(Prints the velocity efficiency with its interval as 'run' and 'compare' would find it, and the outcome.
 Nothing is written. The deck may have been changed after 'vibrotrough deck' wrote it: what is measured is what the engine
-wrote; what it is divided by (amplitude, frequency, angles) is always the scenario's. A run that was stopped, or still goes on, is measured as far as it is.
+wrote, divided by the amplitude, angle and frequency with which its trough moved. A run that was stopped, or still goes on, is measured as far as it is.
 
 The interval is that of the campaign: with several packings it allows for their differences, with one it cannot.
 

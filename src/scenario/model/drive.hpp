@@ -49,23 +49,26 @@ double largest_speed(DriveMotion const& motion, double omega);
 /// Highest order of all terms, at least 1.
 int highest_order(DriveMotion const& motion);
 
-/// One measured cycle of the trough, read and analysed once. Cases that name the same file share it.
+/// A measured motion of the trough, read and analysed once. Cases that name the same file share it.
 struct Waveform {
-    NamedFile file;             ///< name and text
-    std::vector<double> times;  ///< s, of the samples
-    DriveMotion motion;         ///< the same motion as a Fourier series, which holds for every frequency
+    NamedFile file;           ///< name and text
+    double frequency = 0;     ///< Hz, of its fundamental
+    double amplitude = 0;     ///< m, of its fundamental in the direction of vibration
+    double angle = 0;         ///< rad, of the fundamental with the trough, 0 to pi/2
+    DriveMotion motion = {};  ///< the harmonics that are certain in the noise
+    DriveMotion all = {};     ///< with those that are not
+    std::vector<std::string> remarks =
+        {};  ///< what was made of the file and what was left out, a sentence each
 };
 
-/// Reads a measured cycle. The CSV text has the header "time_s,x_m,z_m" and at least 8 samples, the first at
-/// 0, without the first sample of the next cycle. The mean, terms below 1e-6 of the largest amplitude and
-/// orders above 30 are left out.
+/// Reads a record of displacements or accelerations: one cycle without the first sample of the next, or one
+/// and a half and more, evenly spaced, with any start. Harmonics of up to order 30 are fitted to its whole
+/// cycles by least squares, beside the mean and, in three cycles or more, a drift (a parabola). Accelerations
+/// are integrated. `motion` has the harmonics with an amplitude of more than four standard errors of what is
+/// left, where at least 8 samples more than unknowns tell it; terms below 1e-6 of the largest amplitude are
+/// left out. The time is 0 at the first sample.
 /// @throws std::invalid_argument with one line that describes what is wrong with the text
 std::shared_ptr<Waveform const> read_waveform(NamedFile file);
-
-/// Checks that the samples divide one period evenly, each within 1e-3 of the spacing.
-/// @param period  s
-/// @throws std::invalid_argument with one line that names the first sample for which this is not true
-void check_samples(Waveform const& waveform, double period);
 
 /// What is wrong with a waveform as the motion of a trough, and what to write instead.
 struct WaveformFault {
@@ -73,11 +76,13 @@ struct WaveformFault {
     std::string instead;  ///< the keys that go with the waveform
 };
 
-/// Whether a trough can have this waveform as its motion: the samples divide one cycle (check_samples());
-/// the trough's amplitude and vibration angle, on which theory, throw number and efficiency are based, are
-/// those of the waveform's fundamental, to 1 % and 0.01 rad; and along and normal to the trough no harmonic
-/// accelerates it by more than 1000 times as much as the fundamental, which is the range of the theory.
-/// None when it can.
+/// Keys may differ by so much from a record, in which they are nominal values: 10 %, 0.1 rad.
+inline constexpr double near_record = 0.1;
+
+/// Whether a trough can have this waveform as its motion: the trough's frequency, amplitude and vibration
+/// angle are those of the waveform's fundamental to `near_record`; and along and normal to the trough no
+/// harmonic accelerates it by more than 1000 times as much as the fundamental, which is the range of the
+/// theory. None when it can.
 std::optional<WaveformFault> find_fault(Waveform const& waveform, Trough const& trough);
 
 }  // namespace vibrotrough::scenario

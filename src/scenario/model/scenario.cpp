@@ -22,7 +22,7 @@ double angular_frequency(Trough const& trough) {
 double machine_number(Trough const& trough) {
     if (trough.given.machine_number) return *trough.given.machine_number;
     double const omega = angular_frequency(trough);
-    return omega * omega * trough.amplitude / gravity;
+    return omega * omega * trough.amplitude / trough.gravity;
 }
 
 double throw_number(Trough const& trough) {
@@ -36,7 +36,7 @@ double frequency_of(Trough const& trough) {
         trough.given.throw_number
             ? *trough.given.throw_number * std::cos(trough.inclination) / std::sin(trough.vibration_angle)
             : *trough.given.machine_number;
-    return std::sqrt(machine_number * gravity / trough.amplitude) / (2 * std::numbers::pi);
+    return std::sqrt(machine_number * trough.gravity / trough.amplitude) / (2 * std::numbers::pi);
 }
 
 double in_degrees(double radian) {
@@ -49,8 +49,16 @@ double in_degrees(double radian) {
     return radian / degree;
 }
 
+bool is_vertical(Trough const& trough) {
+    return std::cos(trough.vibration_angle) < 1e-9;
+}
+
+double length_scale(Trough const& trough) {
+    return is_vertical(trough) ? trough.amplitude : trough.amplitude * std::cos(trough.vibration_angle);
+}
+
 double velocity_scale(Trough const& trough) {
-    return angular_frequency(trough) * trough.amplitude * std::cos(trough.vibration_angle);
+    return angular_frequency(trough) * length_scale(trough);
 }
 
 double bulk_density(Grains const& grains) {
@@ -92,6 +100,18 @@ int packings_with_frames(OutputPlan const& output, int packings) {
     int count = 0;
     for (int packing = 1; packing <= packings; ++packing) count += writes_frames(output, packing) ? 1 : 0;
     return count;
+}
+
+std::vector<std::string> remarks(Scenario const& scenario) {
+    std::vector<std::string> all;
+    if (scenario.trough.mesh)
+        for (std::string const& repair : scenario.trough.mesh->repairs)
+            all.push_back(fmt::format("{}: {}", scenario.trough.mesh->names(), repair));
+    if (!scenario.trough.given.replaced.empty()) all.push_back(scenario.trough.given.replaced);
+    if (scenario.trough.waveform)
+        all.insert(all.end(), scenario.trough.waveform->remarks.begin(),
+                   scenario.trough.waveform->remarks.end());
+    return all;
 }
 
 std::vector<NamedFile> named_files(Scenario const& scenario) {

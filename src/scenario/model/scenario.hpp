@@ -16,7 +16,7 @@
 
 namespace vibrotrough::scenario {
 
-/// Acceleration of gravity used by theory, decks and tables, m/s^2.
+/// Acceleration of gravity where a trough does not say another, m/s^2.
 constexpr double gravity = 9.81;
 
 /// Solid fraction of a settled layer, if its height is taken as twice the height of its centre of mass.
@@ -34,12 +34,13 @@ struct GivenDrive {
     std::optional<double> tan_inclination = {};      ///< tan(alpha)
     bool is_stroke = false;                          ///< the amplitude, as a stroke
     bool is_turns = false;                           ///< the frequency, in turns of the drive
+    std::string replaced = {};  ///< numbers that a record has replaced, in a sentence; empty without
 };
 
 /// The trough and its drive. The fundamental is along the direction of vibration.
 struct Trough {
     double inclination;      ///< alpha, rad, uphill positive in the conveying direction
-    double vibration_angle;  ///< beta, rad, between the direction of vibration and the trough, [0, pi/2)
+    double vibration_angle;  ///< beta, rad, between the direction of vibration and the trough, [0, pi/2]
     double amplitude;        ///< r, m, in the direction of vibration: half the stroke
     double frequency;        ///< 1/T, Hz
     double friction;         ///< mu, coefficient of grain on trough
@@ -49,10 +50,12 @@ struct Trough {
     double along_phase = 0;  ///< rad, lead of x over z, which makes the drive elliptical
     std::vector<DriveHarmonic> harmonics = {};           ///< in addition to the fundamental
     std::shared_ptr<Waveform const> waveform = nullptr;  ///< a measured motion instead of the sinusoid
-    GivenDrive given = {};                               ///< numbers as the user gave them
-    MeshUnit mesh_unit = MeshUnit::mm;                   ///< of the file of `mesh`
-    std::shared_ptr<TroughMesh const> mesh = nullptr;    ///< a surface instead of the flat floor
-    std::optional<double> width = {};                    ///< m, of the real trough; see trough_width()
+    std::optional<int> waveform_order = {};  ///< highest one kept; without it, those above the noise
+    GivenDrive given = {};                   ///< numbers as the user gave them
+    MeshUnit mesh_unit = MeshUnit::mm;       ///< of the file of `mesh`
+    std::shared_ptr<TroughMesh const> mesh = nullptr;  ///< a surface instead of the flat floor
+    std::optional<double> width = {};                  ///< m, of the real trough; see trough_width()
+    double gravity = scenario::gravity;                ///< g, m/s^2
 };
 
 /// One stage with everything that holds for it. At the end of every cycle the trough is back where it was at
@@ -159,7 +162,14 @@ double frequency_of(Trough const& trough);
 /// rounding, so that 30 degrees are printed as 30 and not as 29.999999999999996.
 double in_degrees(double radian);
 
-/// omega r cos(beta), m/s: the conveying speed at a velocity efficiency of 1.
+/// Whether the trough vibrates normal to itself only.
+bool is_vertical(Trough const& trough);
+
+/// r cos(beta), m, the amplitude along the trough, in which displacements along it are expressed; r for a
+/// trough that vibrates normal to itself only.
+double length_scale(Trough const& trough);
+
+/// omega r cos(beta), m/s: the conveying speed at a velocity efficiency of 1, from length_scale().
 double velocity_scale(Trough const& trough);
 
 /// Density of the settled layer with its voids, kg/m^3: that of the grains times settled_solid_fraction.
@@ -180,6 +190,9 @@ double mean_layer_depth(Scenario const& scenario);
 /// On a mesh it is the level above the lowest point; in an open trough, whose floor may fall or rise, above
 /// the lowest point of a cross-section, as a mean along it.
 double layer_height(Scenario const& scenario);
+
+/// What was mended or left out of the files that the scenario names, a sentence each.
+std::vector<std::string> remarks(Scenario const& scenario);
 
 /// The files that the scenario names: shape, waveform and templates, if it has
 /// them.

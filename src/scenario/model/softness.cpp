@@ -30,7 +30,7 @@ double largest_wave_number(Scenario const& s, double modulus) {
 
 double wave_number(Scenario const& s, double modulus) {
     double const density = mean_density(s), depth = layer_height(s);
-    double const pressure = settled_solid_fraction * density * depth * gravity *
+    double const pressure = settled_solid_fraction * density * depth * s.trough.gravity *
                             std::cos(s.trough.inclination) * (1 + throw_number(s.trough)) / 2;
     double const effective = modulus / (2 * (1 - s.grains.poisson_ratio * s.grains.poisson_ratio));
     double const wave = std::cbrt(effective / density) * std::pow(pressure / density, 1.0 / 6);

@@ -78,6 +78,35 @@ void drop_empty_parts(Solids& solids) {
     solids.parts = std::move(kept);
 }
 
+/// A coordinate of this triangle (from 1).
+double read_number(std::istringstream& text, std::size_t triangle) {
+    std::string word;
+    double value = 0;
+    if (!(text >> word))
+        throw std::invalid_argument(
+            fmt::format("it ends within triangle {}, so that a part of it is missing", triangle));
+    if (word.find(',') != std::string::npos)
+        throw std::invalid_argument(
+            fmt::format("triangle {} has decimal commas ({}), but an STL has decimal points", triangle,
+                        word.substr(0, 30)));
+    std::istringstream number(word);
+    number.imbue(std::locale::classic());
+    if (!(number >> value) || !number.eof())
+        throw std::invalid_argument(fmt::format("a corner of triangle {} is not three numbers", triangle));
+    return value;
+}
+
+/// @throws std::invalid_argument when the size of a binary file is not that of the triangles it announces
+void refuse_wrong_count(std::string_view content) {
+    if (content.size() < binary_head || content.find('\0') == std::string_view::npos) return;
+    std::uint32_t count = 0;
+    std::memcpy(&count, content.data() + 80, sizeof count);
+    throw std::invalid_argument(fmt::format(
+        "it is a binary STL of {} triangles by its header, but it has room for {:.4g}; a part of it may be "
+        "missing",
+        count, static_cast<double>(content.size() - binary_head) / binary_triangle));
+}
+
 Solids read_text(std::string_view content) {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (content.starts_with(byte_order_mark)) content.remove_prefix(byte_order_mark.size());
@@ -89,22 +118,25 @@ Solids read_text(std::string_view content) {
     if (!(text >> word) || lower(word) != "solid")
         throw std::invalid_argument("it is neither a text nor a binary STL");
     std::size_t part = begin_part(text, solids.parts), corner = 0;
+    bool is_whole = true;
     Triangle triangle{};
     while (text >> word && triangles.size() <= most_triangles) {
         word = lower(word);
         if (word == "endsolid" || word == "end") std::getline(text, word);
+        if (word == "endfacet" || word == "endsolid") is_whole = true;
         if (word == "solid") part = begin_part(text, solids.parts);
         if (word != "vertex") continue;
-        Point& p = triangle[corner];
-        if (!(text >> p[0] >> p[1] >> p[2]))
-            throw std::invalid_argument(
-                fmt::format("a corner of triangle {} is not three numbers", triangles.size() + 1));
+        is_whole = false;
+        for (double& number : triangle[corner]) number = read_number(text, triangles.size() + 1);
         corner = (corner + 1) % 3;
         if (corner != 0) continue;
         triangles.push_back(triangle);
         solids.part_of.push_back(part);
     }
     if (corner != 0) throw std::invalid_argument("its last triangle has fewer than three corners");
+    if (!is_whole)
+        throw std::invalid_argument(
+            fmt::format("it ends within triangle {}, so that a part of it is missing", triangles.size()));
     drop_empty_parts(solids);
     return solids;
 }
@@ -119,7 +151,9 @@ std::string part_name(std::string text) {
 
 Solids read_stl(std::string_view content) {
     auto const binary = count_of_binary(content);
-    return binary ? read_binary(content, *binary) : read_text(content);
+    if (binary) return read_binary(content, *binary);
+    refuse_wrong_count(content);
+    return read_text(content);
 }
 
 }  // namespace vibrotrough::scenario

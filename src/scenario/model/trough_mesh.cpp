@@ -1,11 +1,14 @@
 #include "scenario/model/trough_mesh.hpp"
 
 #include "scenario/model/stl_reader.hpp"
+#include "scenario/model/surface_repair.hpp"
+#include "scenario/model/vectors.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -15,29 +18,8 @@ namespace {
 
 constexpr std::size_t most_bytes = 1 << 20;  ///< of the text, as of every file that a campaign names
 constexpr std::size_t places = 300;          ///< of the grid in plan, along and across
-constexpr double at_end = 1e-6;              ///< of the length or width: nodes so close to an end lie on it
-constexpr double no_area = 1e-12;            ///< of the square of the longest edge
-
-Point minus(Point const& a, Point const& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double length(Point const& a) {
-    return std::hypot(a[0], a[1], a[2]);
-}
-
-Point cross(Point const& a, Point const& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-/// Twice the area as a vector along the normal.
-Point area(Triangle const& t) {
-    return cross(minus(t[1], t[0]), minus(t[2], t[0]));
-}
-
-double longest_edge(Triangle const& t) {
-    return std::max({length(minus(t[1], t[0])), length(minus(t[2], t[1])), length(minus(t[0], t[2]))});
-}
+constexpr double close_by =
+    1e-5;  ///< of the diagonal of its box: corners closer to each other or to an end are there
 
 void check(std::vector<Triangle> const& triangles) {
     if (triangles.empty()) throw std::invalid_argument("it has no triangles");
@@ -47,8 +29,6 @@ void check(std::vector<Triangle> const& triangles) {
         double const edge = longest_edge(triangles[i]);
         if (!std::isfinite(edge) || edge > 1e6)
             throw std::invalid_argument(fmt::format("triangle {} is not finite", i + 1));
-        if (length(area(triangles[i])) <= no_area * edge * edge)
-            throw std::invalid_argument(fmt::format("triangle {} has no area", i + 1));
     }
 }
 
@@ -108,8 +88,9 @@ std::vector<double> heights_at(std::vector<Triangle> const& triangles, std::vect
 }
 
 /// Moves the box of the triangles to 0 and returns its extent.
-Point move_to_zero(std::vector<Triangle>& triangles) {
-    Point least = triangles.front()[0], most = least;
+/// @param least  receives the corner that becomes 0
+Point move_to_zero(std::vector<Triangle>& triangles, Point& least) {
+    Point most = least = triangles.front()[0];
     auto const for_all = [&](auto const& function) {
         for (Triangle& triangle : triangles)
             for (Point& corner : triangle)
@@ -123,8 +104,8 @@ Point move_to_zero(std::vector<Triangle>& triangles) {
     for_all([&](double& value, std::size_t k) {
         value -= least[k];
         if (k == 2) return;
-        if (value < at_end * extent[k]) value = 0;
-        if (value > (1 - at_end) * extent[k]) value = extent[k];
+        if (value < close_by * length(extent)) value = 0;
+        if (value > extent[k] - close_by * length(extent)) value = extent[k];
     });
     return extent;
 }
@@ -238,22 +219,31 @@ std::string TroughMesh::names() const {
 }
 
 std::string_view name_of(MeshUnit unit) {
-    constexpr std::array<std::string_view, 2> names{"mm", "m"};
+    constexpr std::array<std::string_view, 4> names{"mm", "m", "cm", "inch"};
     return names.at(static_cast<std::size_t>(unit));
 }
 
 double metres_in(MeshUnit unit) {
-    return unit == MeshUnit::mm ? 1e-3 : 1;
+    constexpr std::array metres{1e-3, 1.0, 1e-2, 25.4e-3};
+    return metres.at(static_cast<std::size_t>(unit));
 }
 
 std::shared_ptr<TroughMesh const> read_trough_mesh(std::vector<NamedFile> files) {
     Solids solids = files.size() == 1 ? read_file(files.front()) : read_files(files);
     std::vector<Triangle>& triangles = solids.triangles;
-    Point const extent = move_to_zero(triangles);
+    Point least{};
+    Point const extent = move_to_zero(triangles, least);
     if (!(extent[0] > 0 && extent[1] > 0))
         throw std::invalid_argument("its surface has no length or no width");
-    TroughMesh mesh{std::move(files),        std::move(triangles),     extent, {}, 0, 0, {}, false, 0, 0,
-                    std::move(solids.parts), std::move(solids.part_of)};
+    std::vector<std::size_t> numbers(triangles.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{1});
+    Surface surface{std::move(triangles), std::move(solids.part_of), std::move(numbers)};
+    std::vector<std::string> repairs = mend(surface, close_by * length(extent), least);
+    if (surface.triangles.empty()) throw std::invalid_argument("none of its triangles has an area");
+    TroughMesh mesh{std::move(files),        std::move(surface.triangles), extent, {}, 0, 0, {}, false, 0, 0,
+                    std::move(solids.parts), std::move(surface.part_of)};
+    mesh.numbers = std::move(surface.numbers);
+    mesh.repairs = std::move(repairs);
     survey(mesh);
     return std::make_shared<TroughMesh const>(std::move(mesh));
 }

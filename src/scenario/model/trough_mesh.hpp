@@ -20,8 +20,10 @@ using Triangle = std::array<Point, 3>;
 
 /// The unit of length of an STL file, which does not say it.
 enum class MeshUnit {
-    mm,  ///< millimetres
-    m,   ///< metres
+    mm,    ///< millimetres
+    m,     ///< metres
+    cm,    ///< centimetres
+    inch,  ///< inches of 25.4 mm
 };
 
 /// The word of the campaign file.
@@ -36,8 +38,9 @@ struct LevelLayer {
     double height;  ///< its surface above the lowest point of the trough
 };
 
-/// A mesh as read from a file, moved so that its box begins at 0 in every direction. Nodes that are within a
-/// millionth of its ends along and across are put exactly there. Cases that name the same file share it. All
+/// A mesh as read from a file, moved so that its box begins at 0 in every direction, and mended (see mend()
+/// in surface_repair.hpp). Corners closer to each other, or to its ends along and across, than 1e-5 of the
+/// diagonal of its box are put exactly there. Cases that name the same file share it. All
 /// lengths are in the unit of the file.
 struct TroughMesh {
     std::vector<NamedFile> files;     ///< names and contents; a binary file is kept as text
@@ -55,7 +58,9 @@ struct TroughMesh {
     /// Names of the solids of a text file that have triangles, in its order, with '_' for all but letters,
     /// digits, '.' and '-'; a binary file is one. Of several files each is one, with the name of the file.
     std::vector<std::string> parts;
-    std::vector<std::size_t> part_of;  ///< of each triangle the index in `parts`
+    std::vector<std::size_t> part_of;       ///< of each triangle the index in `parts`
+    std::vector<std::size_t> numbers = {};  ///< of each triangle its number in the file, from 1
+    std::vector<std::string> repairs = {};  ///< what was mended or left out, a sentence each; see mend()
 
     /// The names of the files, for messages.
     std::string names() const;
@@ -78,7 +83,7 @@ struct TroughMesh {
 
 /// Reads STL files, text or binary, whose lengths have one unit and one origin.
 /// @throws std::invalid_argument with one line that describes what is wrong with it: no STL, no triangles,
-/// more than 1 MiB as text (about 4000 triangles), one without area, a mesh without length or width, two
+/// more than 1 MiB as text (about 4000 triangles), a mesh without length or width, two
 /// surfaces above each other, two files with one name, or walls that leave a part of the sides open
 std::shared_ptr<TroughMesh const> read_trough_mesh(std::vector<NamedFile> files);
 

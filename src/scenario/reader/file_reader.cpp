@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/nearest.hpp"
 #include "core/quantity.hpp"
+#include "scenario/reader/cannot.hpp"
 #include "scenario/reader/design_reader.hpp"
 #include "scenario/reader/run_section.hpp"
 #include "scenario/reader/swept_keys.hpp"
@@ -119,6 +120,9 @@ class CampaignFileReader {
                  "move it below its section's heading");
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
+            if (Cannot const* cannot = cannot_simulate(name.str()))
+                fail(where, name.str(), cannot->wrong,
+                     fmt::format("{} (src/SCOPE.md says what can be simulated)", cannot->instead));
             std::string_view const near = nearest_section(name.str());
             if (!near.empty())
                 fail(where, name.str(), "unknown section", fmt::format("did you mean [{}]?", near));
@@ -306,6 +310,9 @@ class CampaignFileReader {
 
     void check_present(Key const& key) const {
         if (is_optional(key) || given(key.path)) return;
+        bool const is_in_record =
+            key.group == "amplitude" || key.group == "vibration angle" || key.group == "speed of the drive";
+        if (is_in_record && given("trough.waveform")) return;
         std::vector<std::string_view> names{last_name(key.path)};
         for (Key const& other : all_keys()) {
             if (key.group.empty() || other.group != key.group || other.path == key.path) continue;

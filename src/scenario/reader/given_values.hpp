@@ -82,9 +82,9 @@ class GivenKeys {
 
 /// What to write instead of a waveform that is wrong.
 inline constexpr std::string_view waveform_advice =
-    "write the header time_s,x_m,z_m and at least 8 evenly spaced samples of one cycle, the first at 0 s and "
-    "without the first of the next cycle; frequency, amplitude and vibration_angle must be those of its "
-    "fundamental";
+    "write the header time_s,x_m,z_m (or time_s,ax_m_per_s2,az_m_per_s2) and at least 8 evenly spaced "
+    "samples, of "
+    "one cycle without the first of the next, or of several";
 
 /// Refuses what a case cannot have together, and what is given without something that it needs.
 /// @param scenario  all keys are set

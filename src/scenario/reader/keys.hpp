@@ -43,26 +43,26 @@ enum class KeyNeed {
 /// The values that a key may have.
 struct Allowed {
     std::string_view words = {};                   ///< what the limits do not say; empty where they say it
-    std::array<std::string_view, 3> choices = {};  ///< words that may be written; empty behind the last one
+    std::array<std::string_view, 4> choices = {};  ///< words that may be written; empty behind the last one
     std::string_view ending = {};  ///< of the names of files; empty where no file may be named
 
     /// In words: "0 to 5" of a number needs none.
     constexpr Allowed(char const* in_words) : words(in_words) {}  // NOLINT(google-explicit-constructor)
     /// These words only, or these words and files with this ending.
-    constexpr explicit Allowed(std::array<std::string_view, 3> one_of, std::string_view file_ending = {})
+    constexpr explicit Allowed(std::array<std::string_view, 4> one_of, std::string_view file_ending = {})
         : choices(one_of), ending(file_ending) {}
 };
 
 /// One of these words.
 template <typename... Words>
 constexpr Allowed one_of(Words... words) {
-    return Allowed(std::array<std::string_view, 3>{words...});
+    return Allowed(std::array<std::string_view, 4>{words...});
 }
 
 /// The name of a file with this ending in the folder of the campaign file, or one of these words.
 template <typename... Words>
 constexpr Allowed file_or(std::string_view ending, Words... words) {
-    return Allowed(std::array<std::string_view, 3>{words...}, ending);
+    return Allowed(std::array<std::string_view, 4>{words...}, ending);
 }
 
 /// What holds when a key is not given: its default value in SI units, or whether it is needed.

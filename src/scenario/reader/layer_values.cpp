@@ -49,6 +49,14 @@ void check_open_mesh(Scenario const& scenario, GivenKeys const& given) {
             "remove it");
 }
 
+/// @param extent  m, of the mesh in its unit
+std::string advice_on_side(char const* side, double given_side, double extent, MeshUnit unit) {
+    for (MeshUnit const other : {MeshUnit::mm, MeshUnit::m, MeshUnit::cm, MeshUnit::inch})
+        if (std::abs(extent * metres_in(other) / metres_in(unit) / given_side - 1) < 1e-3)
+            return fmt::format("write mesh_unit = \"{}\"", name_of(other));
+    return fmt::format("write {} = \"{:.9g} mm\", or is mesh_unit wrong?", side, 1e3 * extent);
+}
+
 /// The floor of a mesh need not be level.
 void check_mesh(Scenario const& scenario, GivenKeys const& given) {
     TroughMesh const& mesh = *scenario.trough.mesh;
@@ -60,7 +68,7 @@ void check_mesh(Scenario const& scenario, GivenKeys const& given) {
         if (std::abs(given_side - extent) <= 1e-6 * extent) return;
         fail(fmt::format("it is {} {}, and {} is {}", given.text(side, extent), adjective, side,
                          given.text(side, given_side)),
-             fmt::format("write {} = \"{:.9g} mm\", or is mesh_unit wrong?", side, 1e3 * extent));
+             advice_on_side(side, given_side, extent, scenario.trough.mesh_unit));
     };
     check_side("layer.length", "long", scenario.layer.length, unit * mesh.extent[0]);
     check_side("layer.width", "wide", scenario.layer.width, unit * mesh.extent[1]);

@@ -110,6 +110,7 @@ constexpr std::array needed{
     Pair{batch, {"screen.time"}, "a screen without a feed is simulated for a given time"},
     Pair{{"screen.wire"}, screen, no_screen},
     Pair{{"screen.time"}, screen, no_screen},
+    Pair{{"trough.waveform_order"}, {"trough.waveform"}, "it is a harmonic of the record"},
     Pair{{"trough.mesh_unit"}, mesh, "it is the unit of a mesh"},
     Pair{{"grains.number_fractions"}, {"grains.diameters"}, "they are the shares of listed diameters"},
     Pair{{"grains.mass_fractions"}, {"grains.diameters"}, "they are the shares of listed diameters"},

@@ -20,6 +20,7 @@ void level(Trough& trough) {
     trough.along_phase = 0;
     trough.harmonics.clear();
     trough.waveform.reset();
+    trough.waveform_order.reset();
     trough.given = {};
 }
 
@@ -27,7 +28,7 @@ void level(Trough& trough) {
 Scenario shaken(Scenario scenario, double machine_number) {
     Trough& trough = scenario.trough;
     level(trough);
-    trough.frequency = std::sqrt(machine_number * gravity / trough.amplitude) / (2 * std::numbers::pi);
+    trough.frequency = std::sqrt(machine_number * trough.gravity / trough.amplitude) / (2 * std::numbers::pi);
     scenario.output.frames_per_cycle = 0;
     return scenario;
 }

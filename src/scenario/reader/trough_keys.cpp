@@ -114,7 +114,7 @@ constexpr std::array rows_of_trough{
         field<&Scenario::trough, &Trough::inclination>.written_if(lacks<&GivenDrive::tan_inclination>)},
     Key{"trough.tan_inclination", number, "", -1, 1, "", "inclination", required, "-0.05", "tan(alpha)",
         tangent_of<&Trough::inclination, &GivenDrive::tan_inclination>},
-    Key{"trough.vibration_angle", quantity, "radian", 0, 89 / radian, "0 to 89 deg", "vibration angle",
+    Key{"trough.vibration_angle", quantity, "radian", 0, 90 / radian, "0 to 90 deg", "vibration angle",
         required, "\"30 deg\"", "beta, angle between the direction of vibration and the trough",
         field<&Scenario::trough, &Trough::vibration_angle>.written_if(
             lacks<&GivenDrive::tan_vibration_angle>)},
@@ -170,8 +170,16 @@ constexpr std::array rows_of_trough{
         "fundamental (Eq. 22)",
         KeyAccess{harmonics_of, set_harmonics}},
     Key{"trough.waveform", file, "", 0, 0, file_or(".csv"), "", optional, "\"measured.csv\"",
-        "one measured cycle (columns time_s,x_m,z_m) that replaces the sinusoid",
+        "record of the trough's displacements (columns time_s,x_m,z_m) or accelerations (time_s,ax_m_per_s2,"
+        "az_m_per_s2, or ax_g,az_g), of one cycle or several, that replaces the sinusoid; amplitude, angle "
+        "and "
+        "frequency follow from it",
         KeyAccess{waveform_name, set_waveform}},
+    Key{"trough.waveform_order", integer, "", 1, 30, "", "", optional, "5",
+        "highest harmonic of the record that is kept; without it, those that stand out of its noise are kept",
+        field<&Scenario::trough, &Trough::waveform_order>},
+    Key{"trough.gravity", quantity, "m/s2", 0.1, 1000, "0.1 to 1000 m/s2", "", 9.81, "\"1.62 m/s2\"",
+        "g, acceleration of gravity", field<&Scenario::trough, &Trough::gravity>.unless_default()},
     Key{"trough.mesh", files, "", 0, 0, file_or(".stl"), "", optional, "\"chute.stl\"",
         "surface of triangles that replaces the flat floor, x along the trough, y across and z normal to it; "
         "its "
@@ -179,8 +187,8 @@ constexpr std::array rows_of_trough{
         "the "
         "name of its file without .stl",
         KeyAccess{mesh_of, set_mesh}},
-    Key{"trough.mesh_unit", choice, "", 0, 0, one_of("mm", "m"), "", optional, "\"mm\"",
-        "unit of length of the mesh's file, which does not say it",
+    Key{"trough.mesh_unit", choice, "", 0, 0, one_of("mm", "m", "cm", "inch"), "", optional, "\"mm\"",
+        "unit of length of the mesh's file, which does not say it; an inch is 25.4 mm",
         field<&Scenario::trough, &Trough::mesh_unit>.written_if(has_mesh)},
 };
 

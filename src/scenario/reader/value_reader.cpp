@@ -5,6 +5,7 @@
 #include "core/quantity.hpp"
 #include "core/typed_unit.hpp"
 #include "scenario/model/run_settings.hpp"
+#include "scenario/reader/cannot.hpp"
 #include "theory/unusual.hpp"
 
 #include <algorithm>
@@ -17,6 +18,11 @@
 namespace vibrotrough::scenario {
 namespace {
 
+/// With the page that has the whole list.
+std::string scope_advice(Cannot const& cannot) {
+    return fmt::format("{} (src/SCOPE.md says what can be simulated)", cannot.instead);
+}
+
 /// Reads the value of one key.
 class ValueReader {
   public:
@@ -28,6 +34,7 @@ class ValueReader {
         if (node.is_string() && std::ranges::find(known, word) != known.end()) return word;
         bool const is_file = key_.kind == KeyKind::file || key_.kind == KeyKind::files;
         if (is_file && node.is_string() && is_file_name(word)) return word;
+        if (Cannot const* cannot = cannot_simulate(word)) fail(node, cannot->wrong, scope_advice(*cannot));
         bool const are_files = key_.kind == KeyKind::file && node.is_array();
         fail(node,
              are_files ? "is one file, and a list is given"
@@ -148,7 +155,14 @@ class ValueReader {
     bool is_file_name(std::string_view name) const {
         std::string_view const ending = key_.allowed.ending;
         return is_plain_text(name) && name.size() > ending.size() && name.size() <= 100 &&
-               name.ends_with(ending) && name.front() != '.' && name.front() != '-';
+               lower(name.substr(name.size() - ending.size())) == ending && name.front() != '.' &&
+               name.front() != '-';
+    }
+
+    static std::string lower(std::string_view text) {
+        std::string word(text);
+        for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 'a' - 'A') : c;
+        return word;
     }
 
     /// The value as the user wrote it, for a message.
@@ -211,6 +225,8 @@ Position position_of(toml::source_region const& source) {
 
 Key const& known_key(std::string_view path, FilePosition place, std::string_view advice) {
     if (Key const* key = find_key(path)) return *key;
+    if (Cannot const* cannot = cannot_simulate(path))
+        throw_at(place, path, cannot->wrong, scope_advice(*cannot));
     std::string_view const nearest = nearest_key(path);
     throw_at(place, path, "unknown key",
              nearest.empty() ? std::string(advice) : fmt::format("did you mean {}?", nearest));

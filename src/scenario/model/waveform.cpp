@@ -1,0 +1,384 @@
+#include "core/csv.hpp"
+#include "scenario/model/scenario.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <Eigen/Dense>
+#include <boost/math/tools/minima.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unsupported/Eigen/FFT>
+
+namespace vibrotrough::scenario {
+namespace {
+
+constexpr int highest_waveform_order = 30;
+constexpr Eigen::Index fewest_samples = 8;
+constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double standard_gravity = 9.80665;  ///< m/s2 in a g of an accelerometer
+constexpr double certain = 4;  ///< standard errors: 1 of 3000 amplitudes of pure noise is larger
+
+/// A column that a record may have.
+struct Column {
+    std::string_view name;
+    char axis;      ///< 't' for the time
+    double factor;  ///< to SI units
+    bool is_acceleration = false;
+};
+
+constexpr std::array record_columns{Column{"time_s", 't', 1},
+                                    Column{"time_ms", 't', 1e-3},
+                                    Column{"x_m", 'x', 1},
+                                    Column{"y_m", 'y', 1},
+                                    Column{"z_m", 'z', 1},
+                                    Column{"x_mm", 'x', 1e-3},
+                                    Column{"y_mm", 'y', 1e-3},
+                                    Column{"z_mm", 'z', 1e-3},
+                                    Column{"ax_m_per_s2", 'x', 1, true},
+                                    Column{"ay_m_per_s2", 'y', 1, true},
+                                    Column{"az_m_per_s2", 'z', 1, true},
+                                    Column{"ax_g", 'x', standard_gravity, true},
+                                    Column{"ay_g", 'y', standard_gravity, true},
+                                    Column{"az_g", 'z', standard_gravity, true}};
+
+/// The samples of a file, evenly spaced in time.
+struct Record {
+    double spacing = 0;       ///< s
+    Eigen::MatrixXd samples;  ///< along and normal to the trough, m or m/s2
+    bool is_acceleration = false;
+    double across = 0;  ///< half the range of the motion across the trough; 0 where it is not given
+
+    Eigen::Index count() const { return samples.rows(); }
+    char const* unit() const { return is_acceleration ? "m/s2" : "mm"; }
+    double in_unit(double value) const { return is_acceleration ? value : 1e3 * value; }
+};
+
+[[noreturn]] void refuse_header(int line, std::string const& name) {
+    throw std::invalid_argument(
+        fmt::format("line {}: {}; a record has the columns time_s (or time_ms) and x_m, z_m (or x_mm, z_mm), "
+                    "or ax_m_per_s2, az_m_per_s2 (or ax_g, az_g), and may have those of y",
+                    line, name));
+}
+
+/// What each column of the file is; those of time, x and z are there.
+std::vector<Column> known_columns(core::CsvReader const& table) {
+    std::vector<Column> found;
+    for (std::string const& name : table.columns()) {
+        auto const column = std::ranges::find(record_columns, name, &Column::name);
+        if (column == record_columns.end())
+            refuse_header(table.header_line(), fmt::format("'{}' is not a known column", name.substr(0, 40)));
+        found.push_back(*column);
+    }
+    for (char const axis : {'t', 'x', 'z'})
+        if (std::ranges::count(found, axis, &Column::axis) != 1)
+            refuse_header(table.header_line(), "time, x and z are not given once each");
+    bool const is_acceleration = std::ranges::find(found, 'x', &Column::axis)->is_acceleration;
+    for (Column const& column : found)
+        if (column.axis != 't' && column.is_acceleration != is_acceleration)
+            refuse_header(table.header_line(), "displacements and accelerations are mixed");
+    return found;
+}
+
+/// @throws std::invalid_argument when a sample is not where even spacing has it
+void set_spacing(Record& record, std::vector<double> const& times) {
+    record.spacing = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+    if (!(record.spacing > 0)) throw std::invalid_argument("its times do not increase");
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        double const expected = times.front() + record.spacing * static_cast<double>(i);
+        if (std::abs(times[i] - expected) <= 0.1 * record.spacing) continue;
+        throw std::invalid_argument(fmt::format(
+            "sample {} is at {:.6g} s instead of {:.6g} s; the samples must be evenly spaced in time", i + 1,
+            times[i], expected));
+    }
+}
+
+Record read_record(std::string_view text) {
+    Record record;
+    std::vector<double> times, x, y, z;
+    try {
+        core::CsvReader table(text, "", {.comments = true, .blanks = true});
+        std::vector<Column> const found = known_columns(table);
+        record.is_acceleration = std::ranges::find(found, 'x', &Column::axis)->is_acceleration;
+        for (std::vector<double> row(found.size()); table.next(row);) {
+            for (std::size_t k = 0; k < found.size(); ++k) {
+                auto& axis = found[k].axis == 't'   ? times
+                             : found[k].axis == 'x' ? x
+                             : found[k].axis == 'y' ? y
+                                                    : z;
+                axis.push_back(row[k] * found[k].factor);
+            }
+        }
+    } catch (core::CsvError const& error) {
+        throw std::invalid_argument(fmt::format("line {}: {}", error.line(), error.problem()));
+    }
+    auto const count = static_cast<Eigen::Index>(times.size());
+    if (count < fewest_samples)
+        throw std::invalid_argument(
+            fmt::format("there are {} samples, but at least {} are needed", count, fewest_samples));
+    set_spacing(record, times);
+    record.samples.resize(count, 2);
+    record.samples << Eigen::Map<Eigen::VectorXd>(x.data(), count),
+        Eigen::Map<Eigen::VectorXd>(z.data(), count);
+    if (!y.empty()) record.across = (std::ranges::max(y) - std::ranges::min(y)) / 2;
+    return record;
+}
+
+/// A least-squares fit of sines and cosines of the orders 1 to `orders`, and of a polynomial.
+struct Fit {
+    Eigen::MatrixXd coefficients;  ///< polynomial, then cosine and sine of each order; for each axis
+    Eigen::RowVector2d residual;   ///< sum of squares of each axis
+    int powers;                    ///< of time in the polynomial, with the constant
+    Eigen::MatrixXd polynomial;    ///< its values
+};
+
+/// @param count  of the first samples are used
+Fit fit(Record const& record, Eigen::Index count, double frequency, int orders, int powers) {
+    Eigen::MatrixXd design(count, powers + 2 * orders);
+    Eigen::ArrayXd const index = Eigen::ArrayXd::LinSpaced(count, 0, static_cast<double>(count - 1));
+    Eigen::ArrayXd const time = 2 * index / static_cast<double>(count) - 1;
+    for (int k = 0; k < powers; ++k) design.col(k) = time.pow(k);
+    for (int order = 1; order <= orders; ++order) {
+        Eigen::ArrayXd const angle = two_pi * frequency * order * record.spacing * index;
+        design.col(powers + 2 * order - 2) = angle.cos();
+        design.col(powers + 2 * order - 1) = angle.sin();
+    }
+    auto const samples = record.samples.topRows(count);
+    Eigen::MatrixXd const normal = design.transpose() * design;
+    Eigen::MatrixXd const coefficients = normal.ldlt().solve(design.transpose() * samples);
+    return {coefficients, (samples - design * coefficients).colwise().squaredNorm(), powers,
+            design.leftCols(powers) * coefficients.topRows(powers)};
+}
+
+/// Powers of time in a fit: a drift cannot be told from the motion in less than three cycles.
+int powers_of(double cycles) {
+    return cycles < 2.9 ? 1 : 3;
+}
+
+/// The frequency near `guess` (to `range`) with the least residual.
+double refined(Record const& record, double guess, double range, int orders) {
+    Eigen::Index const count = record.count();
+    int const powers = powers_of(guess * record.spacing * static_cast<double>(count));
+    return boost::math::tools::brent_find_minima(
+               [&](double f) { return fit(record, count, f, orders, powers).residual.sum(); }, guess - range,
+               guess + range, 30)
+        .first;
+}
+
+/// The number of the strongest line of the spectrum, in periods of the record.
+Eigen::Index strongest_line(Record const& record) {
+    Eigen::Index const count = record.count();
+    Eigen::VectorXd power = Eigen::VectorXd::Zero(count / 2 + 1);
+    for (Eigen::Index axis = 0; axis < 2; ++axis) {
+        Eigen::FFT<double> transform;
+        Eigen::VectorXd const values =
+            (record.samples.col(axis).array() - record.samples.col(axis).mean()).matrix();
+        Eigen::VectorXcd lines;
+        transform.fwd(lines, values);
+        power += lines.head(count / 2 + 1).cwiseAbs2();
+    }
+    Eigen::Index line = 0;
+    if (!(power.tail(count / 2).maxCoeff(&line) > 0)) throw std::invalid_argument("the trough does not move");
+    return line + 1;
+}
+
+/// Whether a record that is taken for one cycle ends where it begins, to a few of its steps.
+bool is_closed(Record const& record) {
+    Eigen::Index const last = record.count() - 1;
+    Eigen::MatrixXd const steps = record.samples.bottomRows(last) - record.samples.topRows(last);
+    double const jump = (record.samples.row(0) - record.samples.row(last)).norm();
+    return jump <= 3 * steps.rowwise().norm().maxCoeff();
+}
+
+/// A record of one cycle often ends with the first sample of the next one: it is where the first is, much
+/// closer than samples are to each other there.
+void drop_first_of_next(Record& record) {
+    Eigen::Index const last = record.count() - 1;
+    auto const distance = [&](Eigen::Index a, Eigen::Index b) {
+        return (record.samples.row(a) - record.samples.row(b)).norm();
+    };
+    if (strongest_line(record) > 1 || last < fewest_samples) return;
+    if (distance(0, last) < 0.25 * (distance(0, 1) + distance(last - 1, last)) / 2)
+        record.samples.conservativeResize(last, 2);
+}
+
+/// The frequency of the fundamental, Hz: that of the strongest line, or the largest whole part of it whose
+/// multiples explain the motion to 1 %. A record of less than one and a half cycles is exactly one.
+double fundamental_of(Record const& record) {
+    constexpr int most_parts = 10, orders = 6;
+    auto const duration = record.spacing * static_cast<double>(record.count());
+    Record first = record;
+    first.samples.conservativeResize(std::min<Eigen::Index>(record.count(), 8192), 2);
+    double const length = first.spacing * static_cast<double>(first.count());
+    auto const line = static_cast<double>(strongest_line(first));
+    if (line < 1.5) {
+        if (first.count() == record.count() && is_closed(record)) return 1 / duration;
+        throw std::invalid_argument(
+            "it is neither one whole cycle nor several: it does not end where it begins");
+    }
+    double const strongest = refined(first, line / length, 0.6 / length, 1);
+    double const all = fit(first, first.count(), strongest, 0, powers_of(line)).residual.sum();
+    std::array<double, most_parts> left{};
+    int parts = 0;
+    for (; parts < most_parts && (line + 0.5) / (parts + 1) >= 1; ++parts) {
+        int const most = std::max(1, static_cast<int>((static_cast<double>(first.count()) - 5) / 4));
+        left.at(static_cast<std::size_t>(parts)) = fit(first, first.count(), strongest / (parts + 1),
+                                                       std::min(orders * (parts + 1), most), powers_of(line))
+                                                       .residual.sum();
+    }
+    double const least = *std::min_element(left.begin(), left.begin() + parts);
+    int part = 1;
+    while (left.at(static_cast<std::size_t>(part - 1)) > least + 0.01 * all) ++part;
+    double const guess = strongest / part;
+    if (guess * duration < 1.5) return 1 / duration;
+    double const near = refined(first, guess, 0.1 / length, std::min(orders * part, 20));
+    return first.count() == record.count() ? near : refined(record, near, 0.05 / length, orders);
+}
+
+/// The harmonics of a record, as displacements.
+struct Harmonics {
+    DriveMotion all, kept;
+    double noise = 0;  ///< standard deviation of a sample, in the unit of the record
+    double drift = 0;  ///< range of the polynomial
+    int highest = 0;   ///< order that was looked for
+};
+
+/// a sin(k t + phi) from the coefficients of cosine and sine; twice integrated where it is an acceleration.
+DriveTerm term_of(Record const& record, double frequency, int order, double cosine, double sine) {
+    double const omega = two_pi * frequency * order;
+    double const factor = record.is_acceleration ? -1 / (omega * omega) : 1;
+    return {order, std::abs(factor) * std::hypot(sine, cosine), std::atan2(factor * cosine, factor * sine)};
+}
+
+Harmonics harmonics_of(Record const& record, double frequency, double cycles) {
+    double const per_cycle = 1 / (frequency * record.spacing);
+    auto const count = std::min(record.count(), static_cast<Eigen::Index>(std::lround(cycles * per_cycle)));
+    Harmonics found;
+    found.highest = std::min(highest_waveform_order, static_cast<int>((per_cycle + 1e-6 - 1) / 2));
+    Fit const fitted = fit(record, count, frequency, found.highest, powers_of(cycles));
+    auto const free = static_cast<double>(count - fitted.powers - 2 * found.highest);
+    Eigen::RowVector2d noise = Eigen::RowVector2d::Zero();
+    if (free >= 8) noise = (fitted.residual / free).cwiseSqrt();
+    found.noise = noise.norm();
+    found.drift = (fitted.polynomial.colwise().maxCoeff() - fitted.polynomial.colwise().minCoeff()).norm();
+    for (int axis = 0; axis < 2; ++axis) {
+        double const least = certain * noise[axis] * std::sqrt(2 / static_cast<double>(count));
+        auto& all = axis == 0 ? found.all.along : found.all.normal;
+        auto& kept = axis == 0 ? found.kept.along : found.kept.normal;
+        for (int order = 1; order <= found.highest; ++order) {
+            Eigen::Index const row = fitted.powers + 2 * order - 2;
+            double const cosine = fitted.coefficients(row, axis), sine = fitted.coefficients(row + 1, axis);
+            all.push_back(term_of(record, frequency, order, cosine, sine));
+            if (std::hypot(cosine, sine) >= least) kept.push_back(all.back());
+        }
+    }
+    return found;
+}
+
+double largest_term(DriveMotion const& motion) {
+    double largest = 0;
+    for (auto const* terms : {&motion.along, &motion.normal})
+        for (DriveTerm const& term : *terms) largest = std::max(largest, term.amplitude);
+    return largest;
+}
+
+void drop_small(DriveMotion& motion, double least) {
+    for (auto* terms : {&motion.along, &motion.normal})
+        std::erase_if(*terms, [least](DriveTerm const& term) { return term.amplitude < least; });
+}
+
+double fundamental(std::vector<DriveTerm> const& terms) {
+    return terms.empty() || terms.front().order != 1 ? 0.0 : terms.front().amplitude;
+}
+
+/// What was made of a record, and what was left out.
+std::vector<std::string> remarks_on(Waveform const& w, Record const& record, Harmonics const& found,
+                                    double cycles) {
+    std::vector<std::string> all;
+    all.push_back(fmt::format(
+        "{}: {:.0f} whole cycle{} of {} at {:.6g} Hz; the fundamental has an amplitude of {:.5g} mm at "
+        "{:.4g} deg",
+        w.file.name, cycles, cycles > 1 ? "s" : "",
+        record.is_acceleration ? "accelerations" : "displacements", w.frequency, 1e3 * w.amplitude,
+        in_degrees(w.angle)));
+    std::vector<std::string> left;
+    if (found.noise > 0)
+        left.push_back(fmt::format("noise of {:.2g} {} (rms)", record.in_unit(found.noise), record.unit()));
+    if (powers_of(cycles) > 1)
+        left.push_back(fmt::format("a drift of {:.2g} {}", record.in_unit(found.drift), record.unit()));
+    if (record.across > 0)
+        left.push_back(
+            fmt::format("a motion across of up to {:.2g} {}", record.in_unit(record.across), record.unit()));
+    all.push_back(fmt::format("{}: harmonics up to order {} of {} are kept{}{}", w.file.name,
+                              highest_order(w.motion), found.highest, left.empty() ? "" : "; left out are ",
+                              fmt::join(left, ", ")));
+    return all;
+}
+
+/// A sentence when a harmonic accelerates the trough too much against a fundamental of this amplitude, m.
+void check_harmonics(std::vector<std::string>& faults, std::vector<DriveTerm> const& terms, double amplitude,
+                     std::string_view direction) {
+    constexpr double largest_ratio = 1000;  // theory/detail/conveyor/check.cpp
+    for (DriveTerm const& term : terms) {
+        double const acceleration = term.order * term.order * term.amplitude;
+        if (amplitude == 0 || term.order == 1 || acceleration <= largest_ratio * amplitude) continue;
+        faults.push_back(fmt::format(
+            "{} the trough its fundamental of {:.3g} mm is too small: the harmonic of order {} accelerates "
+            "the trough by more than {} times as much",
+            direction, 1e3 * amplitude, term.order, largest_ratio));
+        return;
+    }
+}
+
+}  // namespace
+
+std::shared_ptr<Waveform const> read_waveform(NamedFile file) {
+    Record record = read_record(file.content);
+    drop_first_of_next(record);
+    Waveform w{std::move(file)};
+    w.frequency = fundamental_of(record);
+    double const cycles =
+        std::max(1.0, std::floor(w.frequency * record.spacing * static_cast<double>(record.count()) + 0.01));
+    Harmonics found = harmonics_of(record, w.frequency, cycles);
+    double const least = 1e-6 * largest_term(found.all);
+    drop_small(found.all, least);
+    drop_small(found.kept, least);
+    w.all = std::move(found.all);
+    w.motion = std::move(found.kept);
+    double const along = fundamental(w.motion.along), normal = fundamental(w.motion.normal);
+    w.amplitude = std::hypot(along, normal);
+    w.angle = std::atan2(normal, along);
+    if (!(w.amplitude > 0)) throw std::invalid_argument("the trough has no motion above the noise");
+    w.remarks = remarks_on(w, record, found, cycles);
+    return std::make_shared<Waveform const>(std::move(w));
+}
+
+std::optional<WaveformFault> find_fault(Waveform const& waveform, Trough const& trough) {
+    double const along = fundamental(waveform.motion.along), normal = fundamental(waveform.motion.normal);
+    std::vector<std::string> faults;
+    if (std::abs(waveform.frequency - trough.frequency) > near_record * waveform.frequency)
+        faults.push_back(fmt::format("its frequency is {:.6g} Hz, and that of the trough {:.6g} Hz",
+                                     waveform.frequency, trough.frequency));
+    if (std::abs(waveform.amplitude - trough.amplitude) > near_record * waveform.amplitude ||
+        std::abs(waveform.angle - trough.vibration_angle) > near_record) {
+        faults.push_back(
+            fmt::format("its fundamental has amplitude {:.6g} mm and vibration angle {:.5g} deg, which "
+                        "differ from the keys",
+                        1e3 * waveform.amplitude, in_degrees(waveform.angle)));
+    }
+    check_harmonics(faults, waveform.motion.along, along, "along");
+    check_harmonics(faults, waveform.motion.normal, normal, "normal to");
+    if (faults.empty()) return {};
+    return WaveformFault{
+        fmt::format("{}: {}", waveform.file.name, fmt::join(faults, "; besides, ")),
+        fmt::format(
+            "leave out amplitude, vibration_angle and frequency, which follow from the file, or write "
+            "amplitude = \"{:.6g} mm\", vibration_angle = \"{:.5g} deg\" and frequency = \"{:.6g} "
+            "Hz\"; its fundamental must not be small",
+            1e3 * waveform.amplitude, in_degrees(waveform.angle), waveform.frequency)};
+}
+
+}  // namespace vibrotrough::scenario
