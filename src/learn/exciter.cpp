@@ -75,10 +75,11 @@ Exciter exciter_needed(MovedMachine const& machine, double frequency, double mat
 std::optional<ChosenMotors> choose_motors(std::vector<Motor> const& motors, double static_moment,
                                           double frequency) {
     constexpr double above_its_own = 1.02, converted = 0.9;
+    constexpr double most_setting = 0.9;  // so that the stroke can still be raised
     double const turns = 60 * frequency;
     std::optional<Motor> best;
     for (Motor const& one : motors) {
-        if (turns > above_its_own * one.rpm || 2 * one.static_moment < static_moment) continue;
+        if (turns > above_its_own * one.rpm || 2 * most_setting * one.static_moment < static_moment) continue;
         bool const is_better =
             !best || one.rpm < best->rpm || (one.rpm == best->rpm && one.static_moment < best->static_moment);
         if (is_better) best = one;
@@ -94,7 +95,7 @@ double sag_of(MovedMachine const& machine, double material) {
 double passage_through_resonance(double natural, double frequency, double time) {
     constexpr double overshoot = 1.17;  // of Cornu's spiral over its end
     double const acceleration = 2 * std::numbers::pi * frequency / time;
-    return overshoot * std::numbers::pi * natural * std::sqrt(2 * std::numbers::pi / acceleration);
+    return 1 + overshoot * std::numbers::pi * natural * std::sqrt(2 * std::numbers::pi / acceleration);
 }
 
 Suspension suspension_of(MovedMachine const& machine, double frequency, double material, double amplitude) {

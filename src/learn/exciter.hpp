@@ -40,9 +40,9 @@ struct ChosenMotors {
     bool is_converted;  ///< it runs from a frequency converter, well below its own speed
 };
 
-/// The smallest pair of motors with at least a static moment (kg m, of both together): of those of the
-/// slowest speed that is not below the drive's, which may be 2 % above it. Nothing where none is large
-/// enough.
+/// The smallest pair of motors that give a static moment (kg m, of both together) at a setting of 90 % or
+/// less: of those of the slowest speed that is not below the drive's, which may be 2 % above it. Nothing
+/// where none is large enough.
 std::optional<ChosenMotors> choose_motors(std::vector<Motor> const& motors, double static_moment,
                                           double frequency);
 
@@ -113,10 +113,11 @@ double sag_of(MovedMachine const& machine, double material);
 Suspension suspension_of(MovedMachine const& machine, double frequency, double material, double amplitude);
 
 /// The largest amplitude over the working one while a machine without damping, far above its resonance,
-/// passes that resonance: 1.17 (omega_n / 2) sqrt(2 pi / a), with the angular acceleration a of its motors,
-/// which is constant. The resonant part of the integral of Duhamel is one of Fresnel, by which stationary
-/// phase ends at (omega_n / 2) sqrt(2 pi / a) and overshoots by 17 % (after F.M. Lewis, Trans. ASME 54 (1932)
-/// 253-261). @param natural  Hz @param frequency  Hz, that is reached @param time  s, in which it is reached
+/// passes that resonance: 1 + 1.17 (omega_n / 2) sqrt(2 pi / a), with the angular acceleration a of its
+/// motors, which is constant. The resonant part of the integral of Duhamel is one of Fresnel: by stationary
+/// phase it ends at (omega_n / 2) sqrt(2 pi / a), and overshoots by 17 %; the forced motion, 1, adds to it
+/// (after F.M. Lewis, Trans. ASME 54 (1932) 253-261).
+/// @param natural  Hz @param frequency  Hz, that is reached @param time  s, in which it is reached
 double passage_through_resonance(double natural, double frequency, double time);
 
 /// W, that makers of crank drives install for a moved mass: F A omega / sqrt(2), with F the largest

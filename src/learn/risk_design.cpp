@@ -249,6 +249,18 @@ RiskDesign by_stand_in(DesignTask const& task) {
     return *design;
 }
 
+/// The same; by the point mass where the model that stands in knows no layer within the limits either.
+RiskDesign by_any_stand_in(DesignTask const& task) {
+    try {
+        return by_stand_in(task);
+    } catch (std::invalid_argument const&) {
+        if (task.stand_in->is_point_mass) throw;
+    }
+    DesignTask other = task;
+    other.stand_in = point_mass_design_model();
+    return by_stand_in(other);
+}
+
 /// The best machine whose speed of the drive may be anything within its range.
 RiskDesign design_at_any_speed(DesignTask const& task) {
     if (!task.unknown_material) {
@@ -258,7 +270,7 @@ RiskDesign design_at_any_speed(DesignTask const& task) {
             if (!task.stand_in) throw;
         }
     }
-    if (task.stand_in) return by_stand_in(task);
+    if (task.stand_in) return by_any_stand_in(task);
     if (auto found = best_among(task, RiskSearch::Layers::all)) return *found;
     throw std::invalid_argument(why_no_machine(task));
 }

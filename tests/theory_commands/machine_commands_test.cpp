@@ -126,9 +126,9 @@ TEST(Machine, KeepsToItsKindOfDrive) {
 
 // A surge makes the design's mass flow larger, and its layer in operation thinner.
 TEST(Machine, IsMadeForASurge) {
-    std::string const words = "design --mass-flow '6 t/h' --width '400 mm' --material maize --rpm 960";
+    std::string const words = "design --mass-flow '14 t/h' --width '400 mm' --material maize --rpm 960";
     auto const usual = answer_of(words), surge = answer_of(words + " --surge 1.3");
-    EXPECT_NEAR(surge.at("mass_flow_wanted_t_per_h"), 1.3 * 6, 1e-9);
+    EXPECT_NEAR(surge.at("mass_flow_wanted_t_per_h"), 1.3 * 14, 1e-9);
     EXPECT_GT(surge.at("layer_depth_mm"), usual.at("layer_depth_mm"));
     EXPECT_LT(surge.at("depth_in_operation_mm"), surge.at("layer_depth_mm"));
     EXPECT_GE(surge.at("side_wall_mm").get<double>(), surge.at("layer_depth_mm").get<double>() + 50);
