@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double pi = std::numbers::pi, omega = 2 * pi * 25;
+constexpr double omega = 2 * std::numbers::pi * 25;
 
 struct Sampling {
     double rate = 2000;  ///< Hz
@@ -65,7 +65,7 @@ void expect_motion(Waveform const& w, double tolerance) {
     EXPECT_NEAR(w.motion.along[1].amplitude, 1e-4, 1e-4 * 20 * tolerance);
     // The phase of the third harmonic relative to the fundamental does not depend on where the record begins.
     double const shift = w.motion.along[1].phase - 3 * w.motion.along[0].phase;
-    EXPECT_NEAR(std::remainder(shift - 0.5, 2 * pi), 0, 20 * tolerance);
+    EXPECT_NEAR(std::remainder(shift - 0.5, 2 * std::numbers::pi), 0, 20 * tolerance);
     ASSERT_EQ(w.motion.normal.size(), 1u);
 }
 
@@ -120,7 +120,7 @@ TEST(Waveform, TheFundamentalNeedNotBeTheStrongest) {
 
 TEST(Waveform, AVerticalMotionHasNinetyDegrees) {
     auto const w = read(record([](double) { return 0.0; }, normal));
-    EXPECT_EQ(w->angle, pi / 2);
+    EXPECT_EQ(w->angle, std::numbers::pi / 2);
     EXPECT_TRUE(w->motion.along.empty());
 }
 

@@ -42,12 +42,12 @@ inline void fill_layer(PackingRecord& packing, double first) {
 inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", double frequency = 13.5) {
     scenario::Scenario scenario{};
     scenario.campaign = "sample";
-    scenario.trough = {.inclination = -0.05,
-                       .vibration_angle = 0.5,
-                       .amplitude = 0.006,
-                       .frequency = frequency,
-                       .friction = 0.23,
-                       .restitution = 0.4};
+    scenario.trough.inclination = -0.05;
+    scenario.trough.vibration_angle = 0.5;
+    scenario.trough.amplitude = 0.006;
+    scenario.trough.frequency = frequency;
+    scenario.trough.friction = 0.23;
+    scenario.trough.restitution = 0.4;
     scenario.grains = {.diameter = 0.003,
                        .diameter_spread = 0.1,
                        .density = 1400.0,

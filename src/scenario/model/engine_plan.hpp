@@ -13,7 +13,7 @@ namespace vibrotrough::scenario {
 /// The normal force of a contact; prepare/contact.cpp has a class for each. The engine's probes test Hertz'.
 enum class ContactModel { hertz, hooke };
 /// Their words in the campaign file and in LIGGGHTS.
-inline constexpr std::array<std::string_view, 3> contact_words{"hertz", "hooke"};
+inline constexpr std::array<std::string_view, 4> contact_words{"hertz", "hooke"};
 inline constexpr std::string_view contact_meaning =
     "normal force of the contacts; hertz: proportional to overlap^(3/2), as elasticity theory says; "
     "hooke: a linear spring as stiff as a Hertz contact in the fastest expected impact";
