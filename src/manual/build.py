@@ -101,8 +101,7 @@ def quantities(source: pathlib.Path, program: str) -> None:
 
 
 def libraries() -> str:
-    text = subprocess.run(["cmake", "-P", str(ROOT / "src/dependencies.cmake")], check=True, capture_output=True, text=True).stdout
-    return text[text.index("|") :]
+    return subprocess.run(["cmake", "-P", str(ROOT / "src/dependencies.cmake")], check=True, capture_output=True, text=True).stdout
 
 
 def headers() -> str:
@@ -120,8 +119,7 @@ def generate(source: pathlib.Path, program: str) -> None:
     write(source, "reference/headers.md", headers())
     write(source, "parts/libraries.md", libraries())
     cases = validate.all_cases(ROOT / "validation")
-    verdicts = validate.overview(cases)
-    write(source, "parts/verdicts.md", verdicts[verdicts.index("| case") :].replace("](", "](validation/"))
+    write(source, "parts/verdicts.md", validate.overview(cases).replace("](", "](validation/"))
     write(source, "validation/findings.md", validate.findings_page(cases))
     write(source, "validation/README.md", "# Studies\n\n```{toctree}\n" + "\n".join(f"{case.name}/README" for case in cases) + "\nhistory/README\nfindings\n```\n")
 

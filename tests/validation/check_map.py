@@ -3,7 +3,7 @@ holds what the program prints for a point.
 
     check_map.py PROGRAM FOLDER PAGE [--write]
 
-PAGE is src/store/theory_map.md, which follows from a map; --write writes it again.
+PAGE is src/manual/theory_map.md, which follows from a map; --write writes it again.
 """
 
 import json
