@@ -14,6 +14,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MANUAL = ROOT / "src/manual"
 sys.path.insert(0, str(ROOT / "postprocess"))
+import theory_map  # noqa: E402
 import validate  # noqa: E402
 
 SHARED = {"src/CHANGES.md": "changes.md", "input_templates/tutorial/design.md": "tutorial_design.md",
@@ -117,6 +118,7 @@ def generate(source: pathlib.Path, program: str) -> None:
     quantities(source, program)
     write(source, "reference/keys.md", with_links(printed(program, "keys"), "src/scenario/keys.md"))
     write(source, "reference/headers.md", headers())
+    write(source, "reference/theory_map.md", theory_map.page(program))
     write(source, "parts/libraries.md", libraries())
     cases = validate.all_cases(ROOT / "validation")
     write(source, "parts/verdicts.md", validate.overview(cases).replace("](", "](validation/"))
