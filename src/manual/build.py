@@ -19,7 +19,7 @@ import validate  # noqa: E402
 
 SHARED = {"src/CHANGES.md": "changes.md", "input_templates/tutorial/design.md": "tutorial_design.md",
           "input_templates/tutorial/depth.md": "tutorial_depth.md"}
-PICTURES = ("validation", "input_templates/pictures")
+FOLDERS = ("validation/", "input_templates/pictures/")  # copied with their pages, pictures and tables
 LINK = re.compile(r"(?P<image>!?)\[(?P<text>(?:[^\[\]]|\[[^\]]*\])*)\]\((?P<target>[^()\s]+)\)")
 
 
@@ -33,7 +33,7 @@ def place(path: str) -> str | None:
         return SHARED[path]
     if path.startswith("src/manual/"):
         return path.removeprefix("src/manual/")
-    return path if path.startswith(PICTURES) else None
+    return path if path.startswith(FOLDERS) else None
 
 
 def with_links(text: str, page: str) -> str:
@@ -61,7 +61,7 @@ def write(source: pathlib.Path, name: str, text: str) -> None:
 
 def copy_pages(source: pathlib.Path) -> None:
     shutil.copytree(MANUAL, source)
-    for folder in PICTURES:
+    for folder in FOLDERS:
         for file in (ROOT / folder).rglob("*"):
             if file.suffix in (".png", ".csv", ".py", ".toml", ".md") and "__pycache__" not in file.parts:
                 target = source / file.relative_to(ROOT)
@@ -72,10 +72,25 @@ def copy_pages(source: pathlib.Path) -> None:
     original = {name: page for page, name in SHARED.items()}
     for copy in source.rglob("*.md"):
         name = str(copy.relative_to(source))
-        page = original.get(name, name if name.startswith(PICTURES) else f"src/manual/{name}")
+        page = original.get(name, name if name.startswith(FOLDERS) else f"src/manual/{name}")
         copy.write_text(with_links(copy.read_text(encoding="utf-8"), page), encoding="utf-8")
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     write(source, "parts/first_result.md", with_links(re.split(r"^## .*\n", readme, flags=re.MULTILINE)[1], "README.md"))
+
+
+def as_prose(help_text: re.Match[str]) -> str:
+    """The text below the options of a command: paragraphs as prose, what is indented as it is."""
+    parts = []
+    for part in re.split(r"\n\n+", help_text[1].strip("\n")):
+        is_prose = not re.search(r"^ ", part, re.MULTILINE)
+        parts.append(re.sub(r"([\\`*_\[\]<>#|$])", r"\\\1", part) if is_prose else f"```text\n{part}\n```")
+    return "\n\n".join(parts).replace("\n```\n\n```text\n", "\n\n") + "\n"
+
+
+def exit_codes(text: str) -> str:
+    """The table of exit codes, from the lines of `vibrotrough --help`."""
+    rows = re.findall(r"^ +(\d+)  (.*(?:\n {7}.*)*)", text, re.MULTILINE)
+    return "| code | what happened |\n|---|---|\n" + "".join(f"| {code} | {' '.join(what.split())} |\n" for code, what in rows)
 
 
 def commands(source: pathlib.Path, program: str) -> None:
@@ -85,12 +100,11 @@ def commands(source: pathlib.Path, program: str) -> None:
     for page in pages:
         title, body = page.split("\n", 1)
         names.append(title.removeprefix("vibrotrough ").replace(" ", "-"))
-        write(source, f"reference/commands/{names[-1]}.md", f"# {title}\n" + body.replace("\n### ", "\n## "))
+        write(source, f"reference/commands/{names[-1]}.md", f"# {title}\n" + re.sub(r"```text\n(.*?)```\n", as_prose, body, flags=re.DOTALL))
     head = re.sub(r"\(#vibrotrough-([a-z-]+)\)", r"(commands/\1.md)", head)
     listed = "\n".join(f"commands/{name}" for name in names)
     write(source, "reference/commands.md", f"{head}\n```{{toctree}}\n:hidden:\n{listed}\n```\n")
-    codes = re.search(r"^Exit codes.*?(?=^```)", head, re.MULTILINE | re.DOTALL)
-    write(source, "parts/exit_codes.md", f"```text\n{codes[0]}```\n")
+    write(source, "parts/exit_codes.md", exit_codes(head))
 
 
 def quantities(source: pathlib.Path, program: str) -> None:

@@ -21,6 +21,7 @@ exclude_patterns = ["parts"]
 default_role = "code"
 autodoc_member_order = "bysource"
 autodoc_mock_imports = ["h5py", "pandas", "_theory"]
+smartquotes = False
 html_theme = "furo"
 html_title = f"Vibrotrough {release}"
 html_static_path = ["_static"]
