@@ -15,7 +15,7 @@ from validation_case import read_table
 Cell = float | str | None
 Cells = dict[str, Cell]
 MARK = re.compile(r"<!--=(?P<name>[^>]*?)-->(?P<text>.*?)<!--/-->", re.DOTALL)
-PAGES = ("README.md", "src/*/README.md", "src/README.md", "tests/*/README.md", "postprocess/README.md", "validation/*/README.md")
+PAGES = ("README.md", "src/*/README.md", "src/README.md", "src/manual/**/*.md", "tests/*/README.md", "postprocess/README.md", "validation/*/README.md")
 KEYS = {"tables", "where", "base", "let", "value", "over", "text", "each", "join", "frame", "sort"}
 FUNCTIONS = {"abs": abs, "min": min, "max": max, "round": round}
 REWRITE = "'vibrotrough validate --claims --store' writes it"

@@ -2,7 +2,7 @@
 
     pip install --no-build-isolation ./postprocess
 
-A compiler, CMake, pybind11 and their libraries (Boost, TBB, NLopt, Eigen, fmt) must be installed; src/BUILDING.md names their packages.
+A compiler, CMake, pybind11 and their libraries (Boost, TBB, NLopt, Eigen, fmt) must be installed; src/manual/machines.md names their packages.
 """
 
 import subprocess

@@ -1,4 +1,4 @@
-"""What `vibrotrough validate` does: runs the cases of validation/ and their negative controls, and writes the pages of verdicts."""
+"""What `vibrotrough validate` does: runs the cases of validation/ and their negative controls, and prints the pages of verdicts for the manual."""
 
 import argparse
 import json
@@ -8,28 +8,15 @@ import subprocess
 import sys
 import time
 import tomllib
-from collections.abc import Callable
 from typing import Any
 
 import claims
 from validation_case import FAILS, HOLDS, ROOT
 
 WRONG_INPUT, MISSING, INTERRUPTED = 2, 3, 130
-PAGE_HEAD = """# validation
-
-Each folder tests one claim: its page has the question, the source, the formula, the expected deviation and its reason, and the result. A *criterion* is ours
-and must hold; a *finding* is what somebody else states or what we predicted, and is borne out or not (undecided ones are not counted below). Each case also has
-a negative control, a run with a deliberate mistake that the criteria must detect. The [findings](findings.md) with their numbers, and the program and machine
-of each verdict, are on their own page; [`history`](history/README.md) has studies that are not repeated. `vibrotrough validate --store` writes both pages; [how to make a case](../postprocess/README.md#how-to-add-a-validation-case).
-
-    vibrotrough validate               # all cases and their negative controls; cases with long simulations are judged from their stored tables
-    vibrotrough validate NAME --long   # run the simulations of one case again, which takes minutes to an hour
-
-"""
 FINDINGS_HEAD = """# Findings
 
-Written by `vibrotrough validate --store`. What each [case](README.md) found about the statements of others and our own predictions, how its verdict was
-made, and the criteria that fail, if any.
+What each study found about the statements of others and our own predictions, how its verdict was made, and the criteria that fail, if any.
 """
 
 
@@ -116,30 +103,31 @@ def verdict_text(verdict: dict[str, Any] | None) -> str:
 
 
 def findings_count(findings: list[dict[str, Any]]) -> str:
-    """How many findings are borne out, of those that are decided."""
-    decided = [one["borne_out"] for one in findings if one["borne_out"] is not None]
-    return f"{sum(decided)} of {len(decided)}" if findings else ""
+    """How many findings are supported, and how many are not or are undecided."""
+    found = [one["borne_out"] for one in findings]
+    counts = [(found.count(True), "met"), (found.count(False), "missed"), (found.count(None), "undecided")]
+    return ", ".join(f"{count} {word}" for count, word in counts if count)
 
 
 def findings_text(findings: list[dict[str, Any]]) -> str:
-    words = {True: "borne out", False: "**not borne out**", None: "undecided"}
+    words = {True: "supported", False: "**not supported**", None: "undecided"}
     return "".join(f"- {words[one['borne_out']]}: {one['claim']}. {one['measured']}\n" for one in findings)
 
 
 def overview(cases: list[Case]) -> str:
-    """The text of validation/README.md, from the stored verdicts."""
-    lines = [PAGE_HEAD, "| case | claim | verdict | findings borne out | date |\n|---|---|---|---|---|\n"]
+    """The table of the studies, from the stored verdicts, with links as from the folder `validation`."""
+    lines = ["| study | claim | regression check | pre-registered | date |\n|---|---|---|---|---|\n"]
     for case in cases:
         verdict = case.stored_verdict()
-        borne_out = findings_count(verdict["findings"]) if verdict else ""
-        borne_out = f"[{borne_out}](findings.md#{case.name})" if borne_out else ""
+        count = findings_count(verdict["findings"]) if verdict else ""
+        count = f"[{count}](findings.md#{case.name})" if count else ""
         lines.append(f"| [`{case.name}`]({case.name}/README.md){' (long)' if case.long else ''} | {case.title} | {verdict_text(verdict)} | "
-                     f"{borne_out} | {verdict['date'] if verdict else ''} |\n")
+                     f"{count} | {verdict['date'] if verdict else ''} |\n")
     return "".join(lines)
 
 
 def findings_page(cases: list[Case]) -> str:
-    """The text of validation/findings.md, from the stored verdicts."""
+    """The page of findings, from the stored verdicts."""
     lines = [FINDINGS_HEAD]
     for case in cases:
         verdict = case.stored_verdict()
@@ -151,9 +139,6 @@ def findings_page(cases: list[Case]) -> str:
         found.append(findings_text(verdict["findings"]))
         lines += ["\n", *found] if any(found) else []
     return "".join(lines)
-
-
-WRITTEN: dict[str, Callable[[list[Case]], str]] = {"README.md": overview, "findings.md": findings_page}
 
 
 def show_list(cases: list[Case]) -> None:
@@ -195,14 +180,12 @@ def main() -> None:
         show_list(chosen(cases, options.names))
         return
     if options.page:
-        print("".join(write(cases) for write in WRITTEN.values()), end="")
+        print(overview(cases) + "\n" + findings_page(cases), end="")
         return
     if options.claims:
         sys.exit(0 if judge_claims(options) else 1)
     good = [judge(case, options) for case in chosen(cases, options.names)]
     if options.store:
-        for name, write in WRITTEN.items():
-            (options.cases / name).write_text(write(cases), encoding="utf-8")
         print(f"stored in {options.cases}")
         claims.write(options.cases.resolve().parent)
     print(f"{sum(good)} of {len(good)} cases hold and have a negative control that fails")

@@ -1,5 +1,5 @@
 # Looks for all libraries of dependencies.txt before a room does, and names everything that is missing in one message.
-# Included by CMake; as a script, it prints the table of BUILDING.md: cmake -P src/dependencies.cmake
+# Included by CMake; as a script, it prints the table of the manual: cmake -P src/dependencies.cmake
 cmake_policy(VERSION 3.22)
 set(vibrotrough_dependency_file ${CMAKE_CURRENT_LIST_DIR}/dependencies.txt)
 set(vibrotrough_distributions "Debian, Ubuntu" "Fedora, Rocky" "conda-forge" "Spack")
@@ -85,7 +85,7 @@ function(vibrotrough_missing_message result names)
     endif()
     set(${result} "These libraries are missing:\n${names}"
         "Install what is missing, and configure again:\n${commands}${unpackaged}"
-        "  Libraries in a folder of your own are found with -DCMAKE_PREFIX_PATH=FOLDER (src/BUILDING.md).\n${view_hint}")
+        "  Libraries in a folder of your own are found with -DCMAKE_PREFIX_PATH=FOLDER (src/manual/machines.md).\n${view_hint}")
     string(CONCAT ${result} ${${result}})
     set(${result} "${${result}}" PARENT_SCOPE)
 endfunction()
@@ -112,11 +112,10 @@ function(vibrotrough_require_dependencies)
     endif()
 endfunction()
 
-# As a script: the page libraries.md on standard output.
+# As a script: the table of the libraries on standard output.
 if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
     file(STRINGS ${vibrotrough_dependency_file} rows REGEX "^[^#]")
-    set(table "# The libraries of a build\n\nPrinted by `cmake -P src/dependencies.cmake` from [dependencies.txt](dependencies.txt). [BUILDING.md](BUILDING.md#the-libraries)\nsays which of them are needed for what.\n\n")
-    string(APPEND table "| library | for | Debian, Ubuntu | Fedora, Rocky with EPEL | conda-forge | Spack |\n|---|---|---|---|---|---|\n")
+    set(table "| library | for | Debian, Ubuntu | Fedora, Rocky with EPEL | conda-forge | Spack |\n|---|---|---|---|---|---|\n")
     set(last "")
     foreach(row IN LISTS rows)
         vibrotrough_dependency_fields("${row}")

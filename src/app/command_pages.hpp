@@ -8,7 +8,7 @@ class App;
 
 namespace vibrotrough::app {
 
-/// The page src/app/commands.md: a table of all commands, then each with its options and its help text. It
+/// The commands for the manual: a table of all commands, then each with its options and its help text. It
 /// follows from the definition of the command line, so that both always agree.
 std::string command_reference(CLI::App const& program);
 

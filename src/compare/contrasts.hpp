@@ -24,7 +24,7 @@ std::vector<Column> contrast_columns(std::span<Column const> columns, scenario::
 
 /// Bound of the error of a difference of velocity efficiencies by the numerical settings of two cases. The
 /// errors cancel where the cases have the same box, time step and modulus and differ in material keys alone,
-/// as the README of this room says; all others add as the root of the sum of squares.
+/// as src/manual/howto/compare.md says; all others add as the root of the sum of squares.
 /// @return nothing when the numerical errors of neither are known
 std::optional<double> numerics_of_difference(scenario::Scenario const& one, Row const& row_of_one,
                                              scenario::Scenario const& other, Row const& row_of_other);

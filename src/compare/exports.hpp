@@ -40,7 +40,7 @@ nlohmann::ordered_json swept_object(Row const& row, std::span<Column const> colu
 /// values.
 nlohmann::ordered_json column_descriptions(std::span<Column const> columns = all_columns());
 
-/// The list of the columns in Markdown, for the README of this room.
+/// The list of the columns in Markdown, for the reference of the manual.
 std::string column_reference(std::span<Column const> columns = all_columns());
 
 }  // namespace vibrotrough::compare

@@ -112,7 +112,7 @@ double expected_bytes(prepare::PreparedCase const& prepared);
 double largest_bytes(prepare::PreparedCase const& prepared);
 
 /// Number of bytes of memory of one engine on all its ranks: 36 MB for each rank and 2.7 kB for each sphere,
-/// the largest that LIGGGHTS 3.8.0 took at any moment with 60 to 300,000 grains (tests/bench/README.md).
+/// the largest that LIGGGHTS 3.8.0 took at any moment with 60 to 300,000 grains (src/manual/costs.md).
 double expected_memory(prepare::PreparedCase const& prepared, int ranks = 1);
 
 /// Skin of the neighbour lists in grain diameters, which the deck uses.

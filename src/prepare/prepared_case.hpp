@@ -84,7 +84,7 @@ struct PreparedCase {
 /// whose grains stay in the processor's caches: 1 below 3000 spheres, 3 above 300,000.
 ///
 /// A curve through what LIGGGHTS 3.8.0 took for 10,000, 100,000 and 300,000 grains on one rank of an AMD EPYC
-/// (tests/bench/README.md). Between two days, and so between machines, it was off by a factor of up to 1.4.
+/// (src/manual/costs.md). Between two days, and so between machines, it was off by a factor of up to 1.4.
 double relative_step_cost(double spheres);
 
 /// Works out everything that follows from a scenario.

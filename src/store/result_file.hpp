@@ -12,7 +12,7 @@
 
 namespace vibrotrough::store {
 
-/// Version of the layout of result.h5, see the README of this room. It is raised when an older reader would
+/// Version of the layout of result.h5, see src/manual/files.md. It is raised when an older reader would
 /// misunderstand the file.
 constexpr int result_schema_version = 3;
 /// Version of the layout of campaign.h5.

@@ -8,7 +8,7 @@
 
 namespace vibrotrough::store {
 
-/// Writes a map of the point-mass theory as HDF5, atomically. The README of this room has its schema.
+/// Writes a map of the point-mass theory as HDF5, atomically. The reference of the manual has its schema.
 /// @param fixed  inputs that are the same at all points
 /// @throws core::MissingError when it cannot be written
 void write_theory_map(std::filesystem::path const& path, theory::Map const& map, theory::Inputs const& fixed);

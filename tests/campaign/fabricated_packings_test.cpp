@@ -107,7 +107,7 @@ struct Row {
     double half_width = 0.02;
 };
 
-/// src/measure/README.md has a table of the most instructive rows, and the reasons of other bounds. The
+/// src/manual/confidence.md has a table of the most instructive rows, and the reasons of other bounds. The
 /// interval of a case that drifts may contain the truth always: it counts what is left of decays that are
 /// slower than the true one.
 std::vector<Row> rows() {

@@ -18,7 +18,7 @@ scenario::Scenario with_grains(int grains) {
     return scenario;
 }
 
-// The table of src/campaign/README.md: times on one rank over twice those on two, of which the code has two
+// The table of src/manual/costs.md: times on one rank over twice those on two, of which the code has two
 // digits.
 TEST(Ranks, EfficiencyIsWhatWasMeasured) {
     EXPECT_NEAR(parallel_efficiency(504 / 2.0), 0.033 / (2 * 0.026), 0.012);

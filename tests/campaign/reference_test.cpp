@@ -203,7 +203,7 @@ TEST_F(ReferenceTest, TheFinalIntervalOfRealPackingsCoversTheTruth) {
     }
 }
 
-// The examples of src/measure/README.md: the first packings of the table, below and above in turn.
+// The examples of src/manual/confidence.md: the first packings of the table, below and above in turn.
 TEST_F(ReferenceTest, TheExamplesOfTheReadme) {
     PlannedCase const one = asking(0.03);
     for (auto const& [throw_number, packings, cycles, mean, half_width] :

@@ -3,7 +3,6 @@
 #include "compare/exports.hpp"
 #include "compare/select.hpp"
 #include "compare/table.hpp"
-#include "core/atomic_file.hpp"
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "store/sample_record.hpp"
@@ -190,12 +189,6 @@ TEST(SweptColumns, OfTheDriveAreTheUsualOnes) {
     std::string const text = to_table(table.rows, {.width = 60}, table.columns);
     EXPECT_THAT(text, HasSubstr("case  stroke   mu"));
     EXPECT_THAT(text, HasSubstr("open"));
-}
-
-// The page is the program's own table: a copy that drifts fails here.
-TEST(Columns, AreInTheReference) {
-    EXPECT_NE(core::read_file(REFERENCE_FILE).find(column_reference()), std::string::npos)
-        << "write it again: vibrotrough quantities > src/store/quantities.md";
 }
 
 TEST(Columns, HaveNamesOfTheirOwnAndMeanings) {

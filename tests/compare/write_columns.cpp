@@ -1,5 +1,5 @@
 // Prints the columns of `compare` as they stand in the report's campaign.json; with --markdown the list of
-// src/compare/README.md.
+// src/manual/howto/compare.md.
 
 #include "compare/exports.hpp"
 

@@ -1,18 +1,11 @@
 #include "core/outcome.hpp"
 
-#include "core/atomic_file.hpp"
-
 #include <set>
 
 #include <gtest/gtest.h>
 
 namespace vibrotrough::core {
 namespace {
-
-TEST(Outcome, TheDocumentationHoldsTheTable) {
-    EXPECT_NE(read_file(OUTCOME_PAGE).find(outcome_reference()), std::string::npos)
-        << "write it again: vibrotrough quantities > src/store/quantities.md";
-}
 
 TEST(Outcome, NamesAreUniqueAndReadBack) {
     std::set<std::string_view> names;

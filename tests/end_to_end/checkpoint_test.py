@@ -99,7 +99,7 @@ class Checkpoint(EndToEndTest):
         begun = self.begun()
         self.assertGreaterEqual(begun, 10)
         # Ctrl-C makes a checkpoint at the end of the cycle in which it comes. The cycles before are the same, digit for digit; those
-        # after it have other digits unless the undisturbed run wrote a checkpoint there, too (src/deck/README.md, checkpoints).
+        # after it have other digits unless the undisturbed run wrote a checkpoint there, too (src/manual/simulated.md, checkpoints).
         spent = json.loads((self.packing() / "packing.json").read_text())["core_time"]
         self.assertGreaterEqual(spent, seal["core_time"], "what was spent before the checkpoint counts")
         now, before = (self.numbers(text) for text in ((self.packing() / "cycles.csv").read_text(), cycles))

@@ -1,4 +1,4 @@
-"""Every example of Python in the docstrings of the modules and in postprocess/README.md runs, on a real campaign that is called as they call it."""
+"""Every example of Python in the docstrings of the modules and in the manual runs, on a real campaign that is called as they call it."""
 
 import ast
 import os
@@ -12,6 +12,7 @@ from pathlib import Path
 from trough_program import PATIENCE, PROGRAM, EndToEndTest, campaign_text
 
 POSTPROCESS = Path(__file__).resolve().parent.parent.parent / "postprocess"
+HOWTO = POSTPROCESS.parent / "src/manual/howto"
 THEORY = os.environ.get("VIBROTROUGH_THEORY_MODULE", "")
 CAMPAIGN = {"campaign.name": "pellets", "output.frames_per_cycle": 4, "output.frame_packings": "all", "output.contacts": True,
             "measure.max_cycles": 20}  # fmt: skip
@@ -88,7 +89,7 @@ class PythonExamples(EndToEndTest):
 
     def test_of_the_page(self):
         self.simulate()
-        page = sections(POSTPROCESS / "README.md")
+        page = {heading: text for name in ("python", "python_theory", "observe") for heading, text in sections(HOWTO / f"{name}.md").items()}
         for heading, least in (("Reading results with Python", 2), ("A campaign in Python", 1), ("Your own measurements", 1), ("The theory in Python", 1)):
             examples = [block for block in blocks(page[heading]) if is_python(block)]
             self.assertGreaterEqual(len(examples), least, heading)
@@ -106,7 +107,7 @@ class PythonExamples(EndToEndTest):
 
     def test_the_function_of_the_help_is_that_of_the_page(self):
         shown = self.call("observe", "--help").stdout
-        function = next(block for block in blocks(sections(POSTPROCESS / "README.md")["Your own measurements"]) if is_python(block))
+        function = next(block for block in blocks(sections(HOWTO / "observe.md")["Your own measurements"]) if is_python(block))
         for line in function.replace('"""', "'''").splitlines():
             self.assertIn(line.strip(), shown)
 

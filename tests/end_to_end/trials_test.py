@@ -87,7 +87,7 @@ class Trials(EndToEndTest):
             told = self.call("check", self.bring(name))
             self.assertEqual(told.returncode, 2, told.stdout)
             self.assertIn(words, told.stderr)
-            self.assertIn("SCOPE.md", told.stderr)
+            self.assertIn("scope.md", told.stderr)
 
     def noisy_record(self):
         """Ten cycles of an accelerometer at 3.3 kHz, with noise, an offset and a slow drift, of the drive of three harmonics."""

@@ -113,8 +113,8 @@ std::pair<double, double> shares_of_cost(std::string const& text, Layer const& l
     return {learnt / sobol, learnt / grid};
 }
 
-// The aim is a third of the cost of either; what is measured stands in src/learn/README.md. The bound leaves
-// room for the noise of five draws.
+// The aim is a third of the cost of either; what is measured stands in src/manual/surrogate.md. The bound
+// leaves room for the noise of five draws.
 TEST(LearningCost, IsFarBelowThatOfAGridAndOfADesignWithoutTheTheory) {
     auto const [of_sobol, of_grid] = shares_of_cost(campaign_of_another_kind, layer_beside_theory);
     EXPECT_LT(of_sobol, 0.4);

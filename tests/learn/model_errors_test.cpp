@@ -70,8 +70,9 @@ std::vector<std::map<std::string, double>> layers_of_atlas(std::string const& na
     return rows;
 }
 
-// What design_model.hpp and src/learn/README.md say: with the grains' rolling friction in its dry torque, the
-// law misses layers that roll against friction by no more than its errors for free spheres, 1.96 sd, mostly.
+// What design_model.hpp and src/manual/design_models.md say: with the grains' rolling friction in its dry
+// torque, the law misses layers that roll against friction by no more than its errors for free spheres, 1.96
+// sd, mostly.
 TEST(ModelErrors, OfTheLawHoldForGrainsThatRollAgainstFriction) {
     int known = 0, held = 0, level = 0, level_held = 0;
     for (char const* const table : {"layers.csv", "held_out.csv"}) {

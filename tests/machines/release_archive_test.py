@@ -95,7 +95,7 @@ class ReleaseArchive(unittest.TestCase):
         self.assertGreater(len(licences), 20)
 
     def test_its_size_and_its_glibc(self):
-        """Printed, for the page src/BUILDING.md."""
+        """Printed, for the page src/manual/machines.md."""
         files = [path for path in self.first.rglob("*") if path.is_file() and not path.is_symlink()]
         libraries = [path for path in files if path.parent.name == "vibrotrough" and path.parent.parent.name == "lib"]
         versions = set()

@@ -104,7 +104,7 @@ def check_what_is_not_known():
 
 def check_the_laws_error():
     """The number is that of the stored table."""
-    page = (pathlib.Path(sys.argv[2]).parent / "README.md").read_text(encoding="utf-8")
+    page = (pathlib.Path(sys.argv[2]).parent / "src/manual/validation.md").read_text(encoding="utf-8")
     rms = float(re.search(r"rolling_layer\.law_rms-->([0-9.]+)<", page)[1])
     assert abs(report_reasons.LAW_HALF_WIDTH - 1.96 * rms) < 1e-12, rms
 

@@ -45,7 +45,7 @@ TEST(PreparedCase, AClumpCostsItsSpheres) {
 }
 
 // cost = grain-steps (1 + 2 / (1 + (30,000 / n)^1.5)): what a step of a grain was measured to cost among n
-// spheres, over what it costs when the engine is probed with 1000 (tests/bench/README.md). The expected
+// spheres, over what it costs when the engine is probed with 1000 (src/manual/costs.md). The expected
 // values are geometric means over two days, which were 1.4 times apart; for 3000 spheres nothing is seen.
 // Tolerance: a tenth, much less than the days differ, and more than a curve of two constants misses them by.
 TEST(PreparedCase, AStepCostsMoreInALargeLayer) {

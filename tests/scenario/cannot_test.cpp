@@ -38,7 +38,7 @@ TEST(Cannot, IsAnAnswer) {
                                       {"temperature = 20", "heat"},
                                       {"bowl_diameter = \"1 m\"", "bowls"}}) {
         EXPECT_THAT(error_of(with("[grains]", std::string(line) + "\n\n[grains]")),
-                    AllOf(HasSubstr(words), HasSubstr("SCOPE.md"), Not(HasSubstr("did you mean"))))
+                    AllOf(HasSubstr(words), HasSubstr("scope.md"), Not(HasSubstr("did you mean"))))
             << line;
     }
     EXPECT_THAT(error_of(with("diameter = \"3 mm\"", "diameter = \"3 mm\"\nshape = \"flake\"")),

@@ -1,6 +1,5 @@
 #include "scenario/reader/keys.hpp"
 
-#include "core/atomic_file.hpp"
 #include "core/quantity.hpp"
 #include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
@@ -16,12 +15,6 @@ namespace vibrotrough {
 namespace {
 
 using nlohmann::literals::operator""_json_pointer;
-
-// The page src/scenario/keys.md is what the program prints.
-TEST(Keys, ThePageIsTheReference) {
-    EXPECT_EQ(core::read_file(KEYS_PAGE), scenario::key_reference())
-        << "write it again: vibrotrough keys > src/scenario/keys.md";
-}
 
 // The examples are quoted in errors, so they must be valid.
 TEST(Keys, ExamplesAreInRange) {

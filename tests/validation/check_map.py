@@ -1,9 +1,7 @@
-"""Reads the HDF5 files of the theory with h5py: every dataset has units and a description, is in the schema's table, and
+"""Reads the HDF5 files of the theory with h5py: every dataset has units and a description, and
 holds what the program prints for a point.
 
-    check_map.py PROGRAM FOLDER PAGE [--write]
-
-PAGE is src/store/theory_map.md, which follows from a map; --write writes it again.
+    check_map.py PROGRAM FOLDER
 """
 
 import json
@@ -24,49 +22,6 @@ def datasets(file):
     found = {}
     file.visititems(lambda name, item: found.update({name: item}) if isinstance(item, h5py.Dataset) else None)
     return found
-
-
-# Attributes have no description of their own.
-ATTRIBUTES = {
-    "format": 'The text "vibrotrough theory map"', "schema_version": "Version of this table", "program_version": "Version that computed the map",
-    "git_commit": "Commit that it was built from", "x_name": "The input along x, e.g. throw_number", "y_name": "The input along y",
-}  # fmt: skip
-TITLE = """# A map of the theory
-
-Written by `tests/validation/check_map.py` from what `vibrotrough theory map --output map.h5 --starts N` stores; without `--starts` the file lacks
-`motions`, `fraction`, `lowest_efficiency` and `highest_efficiency`. Names that begin with `@` are attributes of the root.
-
-| name | type | shape | units | meaning |
-|---|---|---|---|---|
-"""
-
-
-def page_of(file):
-    """The reference of a map with 5 rows and 6 columns."""
-    shapes = {(5, 6): "rows, columns", (6,): "columns", (5,): "rows", file["modes"].shape: "modes", file["boundaries/x0"].shape: "pieces", (1,): "1"}
-    lines = [f"| `@{name}` | {'int32' if name == 'schema_version' else 'text'} | scalar | 1 | {meaning} |" for name, meaning in ATTRIBUTES.items()]
-    for name, item in datasets(file).items():
-        kind = "text" if item.dtype.kind in "SO" else item.dtype.name
-        # The units of an input depend on which one it is.
-        units = "of the input" if re.fullmatch(r"x|y|boundaries/[xy].|fixed/.*", name) else item.attrs["units"].decode()
-        name = "fixed/NAME" if name.startswith("fixed/") else name
-        line = f"| `{name}` | {kind} | {shapes[item.shape]} | {units} | {item.attrs['description'].decode()} |"
-        if line not in lines:
-            lines.append(line)
-    return TITLE + "\n".join(lines) + "\n"
-
-
-def check_page(program, folder, page, write):
-    path = folder / "all.h5"
-    theory(program, "map", "--x", "throw_number=0.5:3:6", "--y", "vibration_angle_deg=10:50:5", "--friction", 0.35,
-           "--restitution", 0.3, "--starts", 8, "--output", path)
-    with h5py.File(path) as file:
-        assert set(file.attrs) == set(ATTRIBUTES), set(file.attrs)
-        assert len({file["modes"].shape, file["boundaries/x0"].shape, (5,), (6,)}) == 4, "a shape has two names"
-        text = page_of(file)
-    if write:
-        page.write_text(text, encoding="utf-8")
-    assert page.read_text(encoding="utf-8") == text, f"{page} differs from a map; write it again with --write"
 
 
 def check_map(program, folder):
@@ -101,9 +56,8 @@ def check_table(program, folder):
 
 
 def main():
-    program, folder, page = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
-    check_page(program, folder, page, "--write" in sys.argv)
     check_map(program, folder)
     check_table(program, folder)
 

@@ -7,7 +7,7 @@ void add_manual(CLI::App& program, int& exit_code) {
     CLI::App* const command =
         program.add_subcommand("manual", "Print all commands with their options and help");
     command->add_flag("--markdown")
-        ->description("In Markdown, as the page src/app/commands.md; there is no other form");
+        ->description("In Markdown, for the reference of the manual; there is no other form");
     command->footer("Example:\n  vibrotrough manual | less");
     command->callback([&program, &exit_code] {
         fmt::print("{}", command_reference(program));

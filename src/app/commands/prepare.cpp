@@ -82,8 +82,8 @@ void add_prepare(CLI::App& program, int& exit_code) {
 written, as by 'vibrotrough run'; but nothing is simulated. Each line of the list is a task for 'vibrotrough work', which
 any scheduler can start, on any machine that sees the folder: LSF, HTCondor, GNU parallel. A campaign goes on in
 rounds, because the results decide which packings are needed next: call this command again when the tasks have ended,
-until the list is empty. Packings that a task simulates at that moment are left out. src/campaign/README.md has job
-scripts for several schedulers.
+until the list is empty. Packings that a task simulates at that moment are left out. The page "Clusters" of the manual
+has job scripts for several schedulers.
 
 Example:
   vibrotrough prepare validation/demo/campaign.toml --output runs/demo --task-list tasks.txt

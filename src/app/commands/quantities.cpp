@@ -9,8 +9,9 @@ namespace {
 
 std::string reference() {
     return "# Everything in the results\n\n"
-           "Printed by `vibrotrough quantities`. What the shapes, the tables and the missing values mean is "
-           "explained in\n[src/store](README.md) and [src/compare](../compare/README.md).\n\n" +
+           "Printed by `vibrotrough quantities`. The page \"Files and folders\" of the manual explains "
+           "shapes, "
+           "tables and missing values.\n\n" +
            store::file_reference() + "\n## Columns of compare\n\n" + compare::column_reference() +
            "\n## Columns of compare --stages\n\n" + compare::column_reference(compare::stage_columns()) +
            "\n## Outcomes\n\nWhat a case or a packing can come to.\n\n" + core::outcome_reference();

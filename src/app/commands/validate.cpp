@@ -42,9 +42,9 @@ void add_validate(CLI::App& program, int& exit_code) {
   --long      run the simulations of the long cases, which take minutes to an hour each; without it
               their stored tables are judged again
   --points N  number of points along each axis of a map of the theory; default 300
-  --store     keep tables, figures and verdicts in validation/ itself and write its page again
-  --page      print the page of stored verdicts, and run nothing
-  --claims    compare the numbers in README files that come from stored tables with these tables,
+  --store     keep tables, figures and verdicts in validation/ itself
+  --page      print the stored verdicts and findings in Markdown, and run nothing
+  --claims    compare the numbers in pages of the project that come from stored tables with these tables,
               and run nothing; with --store, write the numbers
   --verbose   show what the cases print instead of writing it to their logs
 

@@ -12,7 +12,7 @@ struct Measured {
     double efficiency;
 };
 
-/// Two ranks of LIGGGHTS 3.8.0 on two cores, see README.md of this room.
+/// Two ranks of LIGGGHTS 3.8.0 on two cores, see src/manual/costs.md.
 constexpr std::array measured{Measured{252, 0.64}, Measured{1008, 0.75}, Measured{2592, 0.64},
                               Measured{9936, 0.70}};
 

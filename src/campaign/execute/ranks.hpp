@@ -6,7 +6,7 @@
 namespace vibrotrough::campaign {
 
 /// Time on one rank over (ranks times time on several), by the number of grains that each rank has: measured
-/// on two ranks (README.md of this room), interpolated over the logarithm, constant beyond the largest
+/// on two ranks (src/manual/costs.md), interpolated over the logarithm, constant beyond the largest
 /// measured; 0 below the smallest, where nothing was measured.
 double parallel_efficiency(double grains_per_rank);
 

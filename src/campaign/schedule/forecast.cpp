@@ -14,7 +14,7 @@ constexpr double unknown_scatter = 0.55;
 constexpr double least_scatter = 0.1;
 
 /// Cycles of a case over those of its first round, in the mean of throw numbers 0.8 to 3 for +- 0.075
-/// (src/measure/README.md). It counts as one case, because the first results may be easy ones.
+/// (src/manual/confidence.md). It counts as one case, because the first results may be easy ones.
 constexpr double usual_rounds = 1.7;
 
 /// What the results say.

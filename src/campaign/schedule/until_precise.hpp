@@ -9,7 +9,7 @@ namespace vibrotrough::campaign {
 /// Adds packings, or cycles to all packings, until the interval of the case is as narrow as
 /// measure.half_width asks.
 ///
-/// The work is done in rounds (README.md of this room). All packings of a round have the same number of
+/// The work is done in rounds (src/manual/measured.md). All packings of a round have the same number of
 /// cycles, and the next round is decided only when all of them have them, from these cycles alone. So the
 /// answer does not depend on which packing happened to end first, and it can be found again from the files
 /// after a crash.

@@ -3,7 +3,7 @@
 #include <string_view>
 
 /// @file
-/// What people ask for and the program cannot simulate; src/SCOPE.md has the whole list.
+/// What people ask for and the program cannot simulate; src/manual/scope.md has the whole list.
 
 namespace vibrotrough::scenario {
 

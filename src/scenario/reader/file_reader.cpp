@@ -122,7 +122,7 @@ class CampaignFileReader {
         if (!is_section(name.str()) && name.str() != "sweep") {
             if (Cannot const* cannot = cannot_simulate(name.str()))
                 fail(where, name.str(), cannot->wrong,
-                     fmt::format("{} (src/SCOPE.md says what can be simulated)", cannot->instead));
+                     fmt::format("{} (src/manual/scope.md says what can be simulated)", cannot->instead));
             std::string_view const near = nearest_section(name.str());
             if (!near.empty())
                 fail(where, name.str(), "unknown section", fmt::format("did you mean [{}]?", near));

@@ -129,8 +129,7 @@ std::string range_of(Key const& key) {
 std::string key_reference() {
     std::string text =
         "# All keys of the campaign file\n\nPrinted by `vibrotrough keys`. \"Exactly one of these\" refers "
-        "to "
-        "neighbouring rows. [src/scenario](README.md)\nexplains how keys work together.\n\n"
+        "to neighbouring rows.\n\n"
         "| key | example | range | default | meaning |\n|---|---|---|---|---|\n";
     std::vector<Key> all = table();
     all.insert(all.end(), run_keys().begin(), run_keys().end());

@@ -104,7 +104,7 @@ struct KeyAccess {
 
 /// One key of the campaign file: what it means, how it is written, what is allowed, and where its value is in
 /// a case or among the settings of a run. The table of all keys is the single source for reading, writing,
-/// sweeps, errors, the reference in keys.md and the schema for editors.
+/// sweeps, errors, the reference of the manual and the schema for editors.
 struct Key {
     std::string_view path;     ///< "section.name"
     KeyKind kind;              ///< how its value is written
@@ -194,7 +194,7 @@ Key const* find_key(std::string_view path);
 /// (more than four letters to change).
 std::string_view nearest_key(std::string_view path);
 
-/// The page keys.md: all keys as a Markdown table, those of [run] last.
+/// The reference of the manual: all keys as a Markdown table, those of [run] last.
 std::string key_reference();
 
 }  // namespace vibrotrough::scenario

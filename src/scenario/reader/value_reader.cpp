@@ -20,7 +20,7 @@ namespace {
 
 /// With the page that has the whole list.
 std::string scope_advice(Cannot const& cannot) {
-    return fmt::format("{} (src/SCOPE.md says what can be simulated)", cannot.instead);
+    return fmt::format("{} (src/manual/scope.md says what can be simulated)", cannot.instead);
 }
 
 /// Reads the value of one key.
