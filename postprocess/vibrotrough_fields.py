@@ -40,6 +40,7 @@ from __future__ import annotations
 import argparse
 import base64
 import dataclasses
+import functools
 import pathlib
 import struct
 import sys
@@ -50,7 +51,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibrotrough_campaign import Case
-from vibrotrough_frames import Contacts, Frame, Packing
+from vibrotrough_frames import Contacts, Cycle, Frame, Packing
 
 Floats = NDArray[np.float64]
 
@@ -337,6 +338,21 @@ def add(sums: dict[str, Floats], found: dict[str, Floats], place: int, count: in
         if missing > 0:
             sums[name] = np.pad(sums[name], [(0, 0), (0, missing)] + [(0, 0)] * (values.ndim - 1))
         sums[name][place] += values
+
+
+@functools.lru_cache(maxsize=4096)  # several observables are made of the same profiles
+def profiles_of_cycle(packing: Packing, number: int, top: float, with_contacts: bool) -> tuple[Floats, dict[str, Floats]]:
+    """Places above the floor up to `top`, m, and the profiles over them, means over a cycle of a packing; those of `Fields`."""
+    cycle = Cycle(packing, number)
+    frames = cycle.frames
+    velocities = trough_velocities(packing, np.array([frame.cycle for frame in frames]))
+    grid = grid_of(frames[0], packing.value("grain_diameter"), top)
+    densities, sums = densities_of(packing), {}
+    for frame, velocity in zip(frames, velocities):
+        contacts = packing.contacts.at(frame.step) if with_contacts else None
+        add(sums, moment(frame, contacts, grid, densities, velocity), 0, 1)
+    fields = Fields(grid, np.ones(1), {name: values / len(frames) for name, values in sums.items()}, 1, packing.case.folder.name)
+    return grid.z, {name: values[0] for name, values in fields.profiles().items()}
 
 
 def write_hdf5(fields: Fields, path: str | pathlib.Path) -> None:
