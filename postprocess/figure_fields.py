@@ -101,7 +101,7 @@ def draw_maps(figure: Figure, axes: Any, fields: vibrotrough_fields.Fields) -> N
         one.set_xlim(extent[:2])
     axes[0].set_ylabel("height above the trough  [mm]")
     if picture is not None:
-        picture.axes.figure.colorbar(picture, ax=axes[3], fraction=0.08, label="solid fraction  [-]")
+        picture.axes.figure.colorbar(picture, ax=axes[2], fraction=0.08, label="solid fraction  [-]")
 
 
 def draw_streamlines(axes: Axes, fields: vibrotrough_fields.Fields, along: Floats, height: Floats) -> None:
@@ -110,8 +110,8 @@ def draw_streamlines(axes: Axes, fields: vibrotrough_fields.Fields, along: Float
     extent = (0, MILLI * fields.grid.length, 2 * height[0] - height[1], height[-1])
     axes.imshow(mean, origin="lower", extent=extent, aspect="auto", cmap="Greys", vmin=0, vmax=1.5 * mean.max(), interpolation="nearest")
     if np.ptp(psi) > 0:
-        axes.contour(along, height, psi, levels=12, colors=COLOURS[1], linewidths=0.8)
-    axes.set_title("streamlines in the layer, mean over the cycle", fontsize=points(8))
+        axes.contour(along, height, np.where(mean > 0.02, psi, np.nan), levels=12, colors=COLOURS[1], linewidths=0.8)
+    axes.set_title("streamlines, mean over the cycle", fontsize=points(8))
 
 
 def finish(figure: Figure, source: "Source", case: str, fields: vibrotrough_fields.Fields) -> None:
