@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 import observables
 import vibrotrough
+import vibrotrough_field_files
 import vibrotrough_fields
 from figure_style import COLOURS, DASHES, GREY, case_title, corner, new_figure, plain_axes, points, save
 from vibrotrough_campaign import Case
@@ -25,6 +26,7 @@ Floats = NDArray[np.float64]
 MILLI = 1e3
 GRAVITY = 9.81  # m/s2, of the decks
 MAP_PHASES = (1 / 4, 1 / 2, 1.0)  # cycles
+SPARSE = 0.05  # solid fraction below which no velocity is drawn
 STRESSES = ("contact_stress", "kinetic_stress", "convective_stress")
 
 
@@ -38,8 +40,8 @@ def plot_fields(source: "Source", case: str, result: vibrotrough.File, output: p
         return []
     folder = source.data / "fields" / case
     folder.mkdir(parents=True, exist_ok=True)
-    vibrotrough_fields.write_hdf5(fields, folder / "fields.h5")
-    vibrotrough_fields.write_vti(fields, folder)
+    vibrotrough_field_files.write_hdf5(fields, folder / "fields.h5")
+    vibrotrough_field_files.write_vti(fields, folder)
     figure, axes = new_figure(2, 4, size=(11.0, 7.2), sharey=True)
     weight = float(result["case/mass_per_area"]) * GRAVITY * float(np.cos(result["case/inclination"]))
     draw_profiles(axes[0], fields, weight)
@@ -63,7 +65,7 @@ def draw_profiles(axes: Any, fields: vibrotrough_fields.Fields, weight: float) -
                           linewidth=0, label="range over the cycle")  # fmt: skip
         one.plot(np.where(scarce, np.nan, line), height, color=COLOURS[0], label="mean over the cycle")
     parts = [mean[name][0, :, 2, 2] for name in STRESSES]
-    curves = ((sum(parts), "all", 0), (parts[0], "contacts", 1), (parts[1], "kinetic", 2), (parts[2], "mean motion", 3))
+    curves = ((np.sum(parts, axis=0), "all", 0), (parts[0], "contacts", 1), (parts[1], "kinetic", 2), (parts[2], "mean motion", 3))
     for values, name, style in curves:
         axes[3].plot(values, height, color=COLOURS[style], linestyle=DASHES[style], label=name)
     axes[3].axvline(weight, color=GREY, linewidth=1, linestyle=DASHES[3], label="weight")
@@ -84,16 +86,17 @@ def draw_maps(figure: Figure, axes: Any, fields: vibrotrough_fields.Fields) -> N
     along, height, everything = MILLI * fields.grid.x, MILLI * fields.grid.z, dict(fields)
     largest = everything["solid_fraction"].max()
     extent = (0, MILLI * fields.grid.length, height[0] - np.diff(height[:2])[0] / 2, height[-1] + np.diff(height[:2])[0] / 2)
+    places = [int(np.abs(fields.phases - phase).argmin()) for phase in MAP_PHASES]
+    fastest = max(np.linalg.norm(everything["velocity"][place][everything["solid_fraction"][place] > SPARSE], axis=-1).max(initial=0) for place in places)
     picture = None
-    for one, phase in zip(axes, MAP_PHASES):
-        place = int(np.abs(fields.phases - phase).argmin())
+    for one, place in zip(axes, places):
         solid, velocity = everything["solid_fraction"][place], everything["velocity"][place]
         picture = one.imshow(solid, origin="lower", extent=extent, aspect="auto", cmap="cividis", vmin=0, vmax=largest, interpolation="nearest")
         step = max(1, len(along) // 10)
         chosen = np.ix_(np.arange(step // 2, len(height), step), np.arange(step // 2, len(along), step))
-        speed = np.where((solid > 0.05)[..., None], velocity, np.nan)[chosen]
+        speed = np.where((solid > SPARSE)[..., None], velocity, np.nan)[chosen]
         at_x, at_z = np.meshgrid(along[chosen[1].ravel()], height[chosen[0].ravel()])
-        one.quiver(at_x, at_z, speed[..., 0], speed[..., 2], color="white", pivot="mid", width=0.006)
+        one.quiver(at_x, at_z, speed[..., 0], speed[..., 2], color="white", pivot="mid", width=0.006, scale=8 * max(fastest, 1e-12))
         one.set_title(f"solid fraction, t / T = {fields.phases[place]:.3g}", fontsize=points(8))
     draw_streamlines(axes[3], fields, along, height)
     for one in axes:
@@ -116,7 +119,8 @@ def draw_streamlines(axes: Axes, fields: vibrotrough_fields.Fields, along: Float
 
 def finish(figure: Figure, source: "Source", case: str, fields: vibrotrough_fields.Fields) -> None:
     figure.suptitle(case_title(source.row_of(case)), fontsize=points(10))
-    told = f"coarse graining, width {MILLI * fields.grid.kernel.width:.3g} mm; {fields.frames} cycles of {len(fields.phases)} frames; white arrows: velocity in the trough"
+    told = (f"coarse graining, width {MILLI * fields.grid.kernel.width:.3g} mm; {fields.frames} cycles of {len(fields.phases)} frames; "
+            "white arrows: velocity in the trough")  # fmt: skip
     corner(figure, source.attributes, told)
     figure.tight_layout(rect=(0, 0.03, 1, 1))
 
@@ -167,7 +171,8 @@ def plot_waves(source: "Source", case: str, result: vibrotrough.File, output: pa
     depth = float(result["case/mass_per_area"]) / float(result["case/grain_density"]) / observables.SETTLED
     draw_half_frequency(right, wave_numbers, amplitudes[int(np.abs(frequencies - 0.5).argmin())], published_wavelength(frequency, depth))
     figure.suptitle(case_title(source.row_of(case)), fontsize=points(10))
-    corner(figure, source.attributes, "vertically vibrated layers form f/2 patterns above about 2.5 g (Melo et al. 1994, Umbanhowar et al. 1998); wavelength: Umbanhowar and Swinney 2000")
+    corner(figure, source.attributes, "published, of vertically vibrated layers: f/2 patterns above about 2.5 g (Umbanhowar et al. 1998), "
+                                      "their wavelength (Umbanhowar and Swinney 2000)")  # fmt: skip
     figure.tight_layout(rect=(0, 0.03, 1, 1))
     return save(figure, output)
 

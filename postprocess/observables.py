@@ -147,8 +147,7 @@ def temperature_profile(cycle):
 
 @vibrotrough.observable(unit="Pa", needs="contacts", over=("height", "m"))
 def stress_profile(cycle):
-    """Normal stress on planes parallel to the trough, of contacts and of the grains' velocities relative to it, over the height above it; the lowest
-    is the force on the floor."""
+    """Normal stress by contacts and by velocities relative to the trough, over the height above it; the lowest is the force on the floor."""
     height, found = profiles(cycle, with_contacts=True)
     return height, sum(found[name][:, 2, 2] for name in ("contact_stress", "kinetic_stress", "convective_stress"))
 
@@ -239,7 +238,7 @@ def half_frequency_waves(packing):
 
 @vibrotrough.observable(unit="m", needs="surface.0.txt", of="packing")
 def half_frequency_wavelength(packing):
-    """Wavelength of the strongest wave of the surface that repeats itself after two cycles; the box holds a whole number of them."""
+    """Wavelength of half_frequency_waves, which says whether there are any; the box holds a whole number of them."""
     found = half_frequency_parts(packing)
     if found is None:
         return None

@@ -6,9 +6,8 @@
     fields = vibrotrough_fields.measure(case)               # of all packings that keep frames
     print(fields["solid_fraction"].shape)                   # (phases, z, x)
     print(fields.profiles()["velocity"][:, :, 0])           # (phases, z): along x, mean over x
-    vibrotrough_fields.write_hdf5(fields, "fields.h5")
 
-or by hand, into fields.h5 and files for ParaView: `vibrotrough_fields.py CASE_FOLDER OUTPUT_FOLDER [--width METRES]`.
+vibrotrough_field_files writes them as HDF5 and for ParaView.
 
 Equations (I. Goldhirsch, Granular Matter 12, 2010, 239-252, doi:10.1007/s10035-010-0181-z). With grains i of mass m_i at r_i, the kernel
 phi, and f_ij the force of j on i:
@@ -37,15 +36,9 @@ So mass and momentum are conserved exactly, in the frame of the trough, which mo
 
 from __future__ import annotations
 
-import argparse
-import base64
 import dataclasses
 import functools
-import pathlib
-import struct
-import sys
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,6 +48,7 @@ from vibrotrough_frames import Contacts, Cycle, Frame, Packing
 
 Floats = NDArray[np.float64]
 
+AT_ONCE = 5000  # grains or contacts, of which each reaches a hundred points or two: 8 MB an array
 CELLS_PER_WIDTH = 4  # of the grid: a sum over its points then differs from the integral by less than 1e-3
 UNITS = {
     "density": ("kg/m3", "mass per volume"),
@@ -144,6 +138,16 @@ class Grid:
         @param values    (n, components)
         @return (z, x, components)
         """
+        sums = np.zeros((self.shape[0] * self.shape[1], values.shape[1]))
+        for first in range(0, len(places), AT_ONCE):
+            some = slice(first, first + AT_ONCE)
+            index, weight = self.weights(places[some], None if branches is None else branches[some])
+            for component, one in enumerate(values[some].T):
+                sums[:, component] += np.bincount(index.ravel(), (weight * one[:, None, None]).ravel(), len(sums))
+        return sums.reshape(*self.shape, -1)
+
+    def weights(self, places: Floats, branches: Floats | None) -> tuple[NDArray[np.intp], Floats]:
+        """Numbers of the points that each place or branch can reach, and its kernel there per metre of breadth: (n, z, x)."""
         (rows, columns), (dz, dx), width = self.shape, self.steps, self.kernel.width
         ends = places if branches is None else places + branches
         reach = np.abs(ends - places).max(axis=0, initial=0) / 2 + width
@@ -154,10 +158,9 @@ class Grid:
         x = (at_column + 0.5) * dx + self.start - places[:, 0, None, None]
         z = (at_row + 0.5) * dz - width - places[:, 1, None, None]
         weight = self.kernel.at(x, z) if branches is None else self.kernel.along(x, z, *(branches[:, i, None, None] for i in (0, 1)))
-        weight = np.where((at_row >= 0) & (at_row < rows), weight, 0) / self.breadth
-        index = (np.clip(at_row, 0, rows - 1) * columns + at_column % columns).astype(np.intp).ravel()
-        sums = [np.bincount(index, (weight * one[:, None, None]).ravel(), rows * columns) for one in values.T]
-        return np.stack(sums, axis=-1).reshape(rows, columns, -1)
+        inside = (at_row >= 0) & (at_row < rows)
+        index = (np.clip(at_row, 0, rows - 1) * columns + at_column % columns).astype(np.intp)
+        return index, np.where(inside, weight, 0) / self.breadth
 
 
 def outer(one: Floats, other: Floats) -> Floats:
@@ -347,87 +350,10 @@ def profiles_of_cycle(packing: Packing, number: int, top: float, with_contacts: 
     frames = cycle.frames
     velocities = trough_velocities(packing, np.array([frame.cycle for frame in frames]))
     grid = grid_of(frames[0], packing.value("grain_diameter"), top)
-    densities, sums = densities_of(packing), {}
+    densities = densities_of(packing)
+    sums: dict[str, Floats] = {}
     for frame, velocity in zip(frames, velocities):
         contacts = packing.contacts.at(frame.step) if with_contacts else None
         add(sums, moment(frame, contacts, grid, densities, velocity), 0, 1)
     fields = Fields(grid, np.ones(1), {name: values / len(frames) for name, values in sums.items()}, 1, packing.case.folder.name)
     return grid.z, {name: values[0] for name, values in fields.profiles().items()}
-
-
-def write_hdf5(fields: Fields, path: str | pathlib.Path) -> None:
-    """fields.h5: x, z, phase; maps, profiles, and `cycle/` with the means over the cycle. Each states its unit."""
-    import h5py
-
-    with h5py.File(path, "w") as file:
-        file.attrs.update({"format": "vibrotrough fields", "case": fields.case, "width": fields.grid.kernel.width, "cycles": fields.frames,
-                           "kernel": "4 / (pi w^2) (1 - r^2/w^2)^3, w the width [m]"})  # fmt: skip
-
-        def put(name: str, values: Floats, units: str, description: str) -> None:
-            data = file.create_dataset(name, data=values, compression="gzip", shuffle=True)
-            data.attrs.update({"units": units, "description": description})
-
-        put("phase", fields.phases, "cycle", "time since phase 0 of the drive over its period")
-        put("x", fields.grid.x, "m", "along the trough, from the start of the box, in the frame of the trough")
-        put("z", fields.grid.z, "m", "above the floor of the trough")
-        groups = (("maps", dict(fields), "phase, z, x"), ("profiles", fields.profiles(), "phase, z"),
-                  ("cycle/maps", dict(fields.mean()), "1, z, x"), ("cycle/profiles", fields.mean().profiles(), "1, z"))  # fmt: skip
-        for group, values, order in groups:
-            for name in fields:
-                put(f"{group}/{name}", values[name], UNITS[name][0], f"{UNITS[name][1]} ({order}, components x, y, z)")
-        put("cycle/maps/stream_function", stream_function(fields), "kg m-1 s-1", "of the mass relative to the layer's mean velocity (z, x)")
-
-
-def array_xml(name: str, values: Floats, components: int) -> str:
-    """A DataArray of VTK, base64 within the file: ParaView 5.11 does not read what is appended to it."""
-    data = np.ascontiguousarray(values, dtype="<f8").tobytes()
-    text = base64.b64encode(struct.pack("<I", len(data)) + data).decode()
-    return f'<DataArray type="Float64" Name="{name}" NumberOfComponents="{components}" format="binary">{text}</DataArray>\n'
-
-
-def write_vti(fields: Fields, folder: str | pathlib.Path, name: str = "fields") -> pathlib.Path:
-    """NAME.pvd for ParaView, and a NAME.NNN.vti for each phase, whose time is the phase in cycles. Nothing is NaN there: it is 0.
-
-    @return the path of NAME.pvd
-    """
-    folder, grid = pathlib.Path(folder), fields.grid
-    (rows, columns), (dz, dx) = grid.shape, grid.steps
-    extent = f"0 {columns - 1} 0 0 0 {rows - 1}"
-    head = '<VTKFile type="{}" version="0.1" byte_order="LittleEndian">\n'
-    lines = []
-    everything = dict(fields)
-    for place, phase in enumerate(fields.phases):
-        arrays = "".join(array_xml(one, np.nan_to_num(values[place]), int(np.prod(values.shape[3:]))) for one, values in everything.items())
-        text = (head.format("ImageData") + f'<ImageData WholeExtent="{extent}" Origin="{grid.x[0]!r} 0 {grid.z[0]!r}" Spacing="{dx!r} 1 {dz!r}">\n'
-                f'<Piece Extent="{extent}">\n<PointData Scalars="solid_fraction" Vectors="velocity">\n{arrays}</PointData>\n'
-                "</Piece>\n</ImageData>\n</VTKFile>\n")  # fmt: skip
-        file = f"{name}.{place + 1:03d}.vti"
-        (folder / file).write_text(text, encoding="ascii")
-        lines.append(f'<DataSet timestep="{phase!r}" file="{file}"/>\n')
-    path = folder / f"{name}.pvd"
-    path.write_text(head.format("Collection") + f"<Collection>\n{''.join(lines)}</Collection>\n</VTKFile>\n", encoding="ascii")
-    return path
-
-
-def main() -> int:
-    parser = argparse.ArgumentParser(description="Writes fields.h5 and fields.pvd of a case that keeps frames.")
-    parser.add_argument("case", type=pathlib.Path, help="a case's folder, such as runs/demo/cases/ID")
-    parser.add_argument("output", type=pathlib.Path, help="folder to write to")
-    parser.add_argument("--width", type=float, metavar="METRES", help="radius of the kernel; default: a mean diameter")
-    parser.add_argument("--discard", type=int, metavar="CYCLES", help="cycles left out at the beginning; default: the start-up")
-    options: Any = parser.parse_args()
-    if options.width is not None and not options.width > 0:
-        parser.error("--width is a length above 0 in metres")
-    try:
-        fields = measure(Case(options.case), width=options.width, discard=options.discard)
-    except (NoFields, OSError, KeyError) as error:
-        print(f"vibrotrough_fields.py: {error.args[0] if isinstance(error, KeyError) else error}", file=sys.stderr)
-        return 2
-    options.output.mkdir(parents=True, exist_ok=True)
-    write_hdf5(fields, options.output / "fields.h5")
-    print(options.output / "fields.h5", write_vti(fields, options.output), sep="\n")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -17,6 +17,7 @@ import numpy as np
 
 sys.path.insert(0, sys.argv[1])
 import observables  # noqa: E402
+import vibrotrough_field_files as files  # noqa: E402
 import vibrotrough_fields as cg  # noqa: E402
 from check_observables import DIAMETER, LENGTH, PERIOD, STEPS, WIDTH, Maker, contact_row, some_places, write_contacts  # noqa: E402
 from vibrotrough_frames import Contacts, Frame  # noqa: E402
@@ -252,8 +253,8 @@ def check_convection():
 def check_files(folder):
     """What h5dump and VTK's own reader read is what was written."""
     fields = cg.measure(a_carried_layer(folder).case)
-    cg.write_hdf5(fields, folder / "fields.h5")
-    path = cg.write_vti(fields, folder)
+    files.write_hdf5(fields, folder / "fields.h5")
+    path = files.write_vti(fields, folder)
     assert path.read_text().count("<DataSet") == 4 and "AppendedData" not in (folder / "fields.001.vti").read_text()
     if shutil.which("h5dump"):
         done = subprocess.run(["h5dump", "-d", "/profiles/contact_stress", "-s", "0,0,2,2", "-c", "1,1,1,1", "-y", "-m", "%.17g", folder / "fields.h5"],
@@ -289,7 +290,7 @@ def check_refusals(folder):
             assert reason in str(error), error
         else:
             raise AssertionError(f"was measured, without {reason}")
-    script = pathlib.Path(sys.argv[1]) / "vibrotrough_fields.py"
+    script = pathlib.Path(sys.argv[1]) / "vibrotrough_field_files.py"
     for arguments, reason in (([folder / "nothing", folder], "nothing"), ([folder, folder, "--width", "-1"], "--width is a length above 0")):
         done = subprocess.run([sys.executable, "-B", script, *arguments], capture_output=True, text=True)
         assert done.returncode == 2 and reason in done.stderr and "Traceback" not in done.stderr, done
