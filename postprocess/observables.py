@@ -7,6 +7,7 @@ observable gets a cycle or a whole packing; help(vibrotrough.observable) and hel
 import numpy as np
 
 import vibrotrough
+import vibrotrough_fields
 
 SETTLED = 0.58  # solid fraction of a settled layer, if its height is taken as twice the height of its centre of mass, as the program does
 
@@ -118,20 +119,37 @@ def force_distribution(cycle):
     return (edges[:-1] + edges[1:]) / 2, share / len(forces) / np.diff(edges)
 
 
+def profiles(cycle, with_contacts=False):
+    """Heights and coarse-grained profiles in the frame of the trough: see help(vibrotrough_fields)."""
+    return vibrotrough_fields.profiles_of_cycle(cycle.packing, cycle.number, bins_over_height(cycle.packing)[-1], with_contacts)
+
+
+@vibrotrough.observable(over=("height", "m"))
+def solid_fraction_profile(cycle):
+    """Volume of the grains per volume over the height above the trough, by coarse graining with a kernel of one diameter."""
+    height, found = profiles(cycle)
+    return height, found["solid_fraction"]
+
+
+@vibrotrough.observable(unit="m/s", over=("height", "m"))
+def velocity_profile(cycle):
+    """Mean velocity along the trough and relative to it, of the mass, over the height above it."""
+    height, found = profiles(cycle)
+    return height, found["velocity"][:, 0]
+
+
+@vibrotrough.observable(unit="m2/s2", over=("height", "m"))
+def temperature_profile(cycle):
+    """Granular temperature over the height above the trough: a third of the mean square of velocities relative to the mean at that height and moment."""
+    height, found = profiles(cycle)
+    return height, found["granular_temperature"]
+
+
 @vibrotrough.observable(unit="Pa", needs="contacts", over=("height", "m"))
 def stress_profile(cycle):
-    """Normal stress on planes parallel to the trough by the forces of contacts, over the height above it; positive when it presses."""
-    edges = bins_over_height(cycle.packing)
-    stress = np.zeros(len(edges) - 1)
-    for frame, contacts in zip(cycle.frames, cycle.contacts):
-        force = (contacts.normal_force + contacts.tangential_force)[:, 2]  # on the first grain
-        start = contacts.places[:, 2] - frame.trough[1]
-        end = start + contacts.branch[:, 2]
-        # Each contact carries its force through the slabs between the two centres (Love's formula, slab by slab).
-        low, high = np.minimum(start, end)[:, None], np.maximum(start, end)[:, None]
-        within = np.clip(np.minimum(high, edges[1:]) - np.maximum(low, edges[:-1]), 0, None)
-        stress += (np.sign(start - end) * force) @ within / np.diff(edges) / frame.floor_area / len(cycle.frames)
-    return (edges[:-1] + edges[1:]) / 2, stress
+    """Normal stress by contacts and by velocities relative to the trough, over the height above it; the lowest is the force on the floor."""
+    height, found = profiles(cycle, with_contacts=True)
+    return height, sum(found[name][:, 2, 2] for name in ("contact_stress", "kinetic_stress", "convective_stress"))
 
 
 def surface_snapshots(folder):
@@ -176,3 +194,56 @@ def surface_waves(packing):
         seen = (steps > (k - 3) * packing.steps_per_cycle) & (steps <= k * packing.steps_per_cycle)
         values[k - 1] = np.sqrt(strongest[seen].mean())
     return values
+
+
+WINDOW = 20  # snapshots, which are six cycles: three periods of half the frequency of the drive
+
+
+def surface_in_layer(packing):
+    """Waves of the surface as wave_parts gives them, but in a frame that moves with the layer from cycle to cycle; their numbers in the
+    box over its length [1/m], and the times of the snapshots in cycles. None when the box is too short for a wave."""
+    steps, places, heights = surface_snapshots(packing.folder)
+    if len(places) < 4 or len(steps) < WINDOW:
+        return None
+    length = len(places) * (places[1] - places[0])
+    parts = wave_parts(places, heights, length)
+    wave_numbers = np.arange(1, parts.shape[1] + 1) / length
+    series = packing.table("cycles.csv")
+    way = np.append(0, np.cumsum(series["mean_vx"][1:])) * packing.steps_per_cycle * packing.time_step
+    moved = np.interp(steps, series["step"], way)
+    return parts * np.exp(2j * np.pi * np.outer(moved, wave_numbers)), wave_numbers, steps / packing.steps_per_cycle
+
+
+def half_frequency_parts(packing):
+    """Wave numbers [1/m], and for each cycle the amplitude of the waves with half the frequency of the drive, standing or not, seen in the six
+    cycles that end: (cycles, waves), NaN before. None as above."""
+    found = surface_in_layer(packing)
+    if found is None:
+        return None
+    parts, wave_numbers, cycles = found
+    amplitudes = np.full((len(packing.cycles()), len(wave_numbers)), np.nan)
+    for k in range(6, len(amplitudes) + 1):
+        seen = (cycles > k - 6 + 1e-9) & (cycles <= k + 1e-9)
+        turn = np.exp(1j * np.pi * cycles[seen])
+        amplitudes[k - 1] = 2 * (abs((parts[seen] * turn[:, None]).mean(axis=0)) + abs((parts[seen] / turn[:, None]).mean(axis=0)))
+    return wave_numbers, amplitudes
+
+
+@vibrotrough.observable(unit="m", needs="surface.0.txt", of="packing")
+def half_frequency_waves(packing):
+    """Amplitude of the strongest wave of the surface along the trough that repeats itself after two cycles, seen in six cycles."""
+    found = half_frequency_parts(packing)
+    return None if found is None else found[1].max(axis=1)
+
+
+@vibrotrough.observable(unit="m", needs="surface.0.txt", of="packing")
+def half_frequency_wavelength(packing):
+    """Wavelength of half_frequency_waves, which says whether there are any; the box holds a whole number of them."""
+    found = half_frequency_parts(packing)
+    if found is None:
+        return None
+    wave_numbers, amplitudes = found
+    known = np.isfinite(amplitudes).all(axis=1)
+    lengths = np.full(len(amplitudes), np.nan)
+    lengths[known] = 1 / wave_numbers[amplitudes[known].argmax(axis=1)]
+    return lengths

@@ -3,8 +3,10 @@ grain, the motion does not change by a bit, and VTK's own reader opens what was 
 """
 
 import math
+import sys
 import unittest
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 
 import numpy as np
 from vtk import vtkXMLPolyDataReader
@@ -97,6 +99,28 @@ class Contacts(EndToEndTest):
             for entry in entries:
                 self.assertNotIn(b"AppendedData", (folder / entry.get("file")).read_bytes())
             self.check_balance(*self.check_geometry(folder / entries[0].get("file")))
+        self.check_fields(both)
+
+    def check_fields(self, case):
+        """Of the first frame, at rest: the integral of the density is the mass of the grains, and the stress at z is the weight above z, the
+        lowest that of the layer."""
+        sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "postprocess"))
+        import vibrotrough_fields
+        from vibrotrough_campaign import Case
+
+        packing = Case(case).packing(1)
+        frame = packing.frames[0]
+        grid = vibrotrough_fields.grid_of(frame, DIAMETER, frame.heights.max() + DIAMETER)
+        found = vibrotrough_fields.moment(frame, packing.contacts[0], grid, {1: DENSITY}, np.zeros(3))
+        density, stress = found["density"].mean(axis=1), found["contact_stress"].mean(axis=1)[:, 2, 2]
+        mass = DENSITY * frame.volumes.sum() / frame.floor_area
+        # The sum over the grid is off by less than 6e-4 (tests/postprocess/check_fields.py).
+        self.assertAlmostEqual(density.sum() * grid.steps[0] / mass, 1, delta=6e-4)
+        # A settled layer trembles, see check_balance.
+        self.assertAlmostEqual(stress[0] / (mass * GRAVITY), 1, delta=0.01)
+        above = (np.cumsum(density[::-1])[::-1] - density / 2) * grid.steps[0] * GRAVITY
+        print(f"stress in the layer at rest less the weight above it: {abs(stress - above).max() / stress[0]:.2g} of the weight")
+        np.testing.assert_allclose(stress, above, rtol=0, atol=0.01 * mass * GRAVITY)
 
 
 if __name__ == "__main__":

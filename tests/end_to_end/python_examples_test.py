@@ -74,7 +74,7 @@ class PythonExamples(EndToEndTest):
 
     def test_of_the_docstrings(self):
         self.simulate()
-        for module, least in (("vibrotrough", 1), ("vibrotrough_campaign", 1), ("vibrotrough_frames", 1), ("vibrotrough_theory", 1)):
+        for module, least in (("vibrotrough", 1), ("vibrotrough_campaign", 1), ("vibrotrough_fields", 1), ("vibrotrough_frames", 1), ("vibrotrough_theory", 1)):
             if module == "vibrotrough_theory" and not THEORY:
                 continue
             examples = [block for block in blocks(self.docstring(module)) if is_python(block)]
