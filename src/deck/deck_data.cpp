@@ -129,27 +129,6 @@ std::vector<std::string> moving_meshes(prepare::PreparedCase const& n) {
     return meshes;
 }
 
-/// One axis of a record as a viblin of the engine, which adds - a w sin(w t + p) dt in the step that ends at
-/// t. A sin(k phi + q) - A sin(k (phi - d) + q), with d the phase of a step, is 2 A sin(k d / 2) cos(k phi +
-/// q
-/// - k d / 2), so that a = 2 A sin(k d / 2) / (k d) and p = q - k d / 2 - pi / 2.
-core::TemplateData mover_of(std::vector<scenario::DriveTerm> const& terms, prepare::PreparedCase const& n) {
-    double const step = 2 * std::numbers::pi / n.time.steps_per_cycle;
-    std::vector<std::string> amplitudes, phases, periods;
-    for (scenario::DriveTerm const& term : terms) {
-        double const half = term.order * step / 2;
-        amplitudes.push_back(text(term.amplitude * std::sin(half) / half));
-        phases.push_back(text(term.phase - half - std::numbers::pi / 2));
-        periods.push_back(text(n.time.time_step * n.time.steps_per_cycle / term.order));
-    }
-    core::TemplateData mover;
-    mover.set("order", std::to_string(terms.size()));
-    mover.set("amplitudes", fmt::format("{}", fmt::join(amplitudes, " ")));
-    mover.set("phases", fmt::format("{}", fmt::join(phases, " ")));
-    mover.set("periods", fmt::format("{}", fmt::join(periods, " ")));
-    return mover;
-}
-
 /// A record without stages is moved by the engine's own sum of sines.
 void describe_record(core::TemplateData& data, prepare::PreparedCase const& n) {
     bool const is_record = n.scenario.trough.waveform && n.stages.empty();
@@ -158,7 +137,12 @@ void describe_record(core::TemplateData& data, prepare::PreparedCase const& n) {
         for (char const* axis : {"1 0 0", "0 0 1"}) {
             auto const& terms = *axis == '1' ? n.motion.along : n.motion.normal;
             if (!is_record || terms.empty()) continue;
-            core::TemplateData mover = mover_of(terms, n);
+            SineMover const sum = sine_mover(terms, n.time.time_step, n.time.steps_per_cycle);
+            core::TemplateData mover;
+            mover.set("order", std::to_string(terms.size()));
+            mover.set("amplitudes", sum.amplitudes);
+            mover.set("phases", sum.phases);
+            mover.set("periods", sum.periods);
             mover.set("fix", fmt::format("drive_{}_{}", mesh, *axis == '1' ? 'x' : 'z'));
             mover.set("mesh", mesh);
             mover.set("axis", axis);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::deck {
 namespace {
@@ -55,6 +57,19 @@ DriveFormula displacement_formula(std::vector<scenario::DriveTerm> const& terms,
     });
     if (formula.terms.empty()) formula.speed = "0";
     return formula;
+}
+
+SineMover sine_mover(std::vector<scenario::DriveTerm> const& terms, double time_step, int steps_per_cycle) {
+    double const step = 2 * std::numbers::pi / steps_per_cycle;
+    std::vector<double> amplitudes, phases, periods;
+    for (scenario::DriveTerm const& term : terms) {
+        double const half = term.order * step / 2;
+        amplitudes.push_back(term.amplitude * std::sin(half) / half);
+        phases.push_back(term.phase - half - std::numbers::pi / 2);
+        periods.push_back(time_step * steps_per_cycle / term.order);
+    }
+    return {fmt::format("{}", fmt::join(amplitudes, " ")), fmt::format("{}", fmt::join(phases, " ")),
+            fmt::format("{}", fmt::join(periods, " "))};
 }
 
 }  // namespace vibrotrough::deck

@@ -31,4 +31,18 @@ DriveFormula drive_formula(std::vector<scenario::DriveTerm> const& terms, std::s
 DriveFormula displacement_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& name,
                                   std::string const& angle);
 
+/// One axis of a record as the numbers of a `viblin` of the engine, each separated by blanks.
+struct SineMover {
+    std::string amplitudes;  ///< m
+    std::string phases;      ///< rad
+    std::string periods;     ///< s
+};
+
+/// The engine's sum of sines whose displacement after each step is that of a Fourier series. It adds
+/// - a w sin(w t + p) dt in the step that ends at t. A sin(k phi + q) - A sin(k (phi - d) + q), with d the
+/// phase of a step, is 2 A sin(k d / 2) cos(k phi + q - k d / 2), so that a = 2 A sin(k d / 2) / (k d) and p
+/// = q - k d / 2 - pi / 2.
+/// @param time_step  of the engine, s
+SineMover sine_mover(std::vector<scenario::DriveTerm> const& terms, double time_step, int steps_per_cycle);
+
 }  // namespace vibrotrough::deck

@@ -32,8 +32,8 @@ core::TemplateTexts texts_with(scenario::DeckTemplates const& replaced) {
 /// A template without its sections `also_...`, which are only in decks whose scenario asks for them, so that
 /// the ids of other cases stay.
 std::string for_all_decks(std::string const& text) {
-    static std::regex const section(R"(\{\{#(also_\w+)\}\}[\s\S]*?\{\{/\1\}\}\n?)"),
-        tag(R"(\{\{[\^/]also_\w+\}\}\n?)");
+    static std::regex const section(R"(\{\{#(also_\w+)\}\}[\s\S]*?\{\{/\1\}\})"),
+        tag(R"(\{\{[\^/]also_\w+\}\})");
     return std::regex_replace(std::regex_replace(text, section, ""), tag, "");
 }
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-// The friction coefficient from a horizontal shake test (Sloot & Kruyt 1996, section 3.5 and Fig. 8): a box of
-// grains slides on a plate that is shaken horizontally (beta = 0), and mu follows from the largest
+// The friction coefficient from a horizontal shake test (Sloot & Kruyt 1996, section 3.5 and Fig. 8): a box
+// of grains slides on a plate that is shaken horizontally (beta = 0), and mu follows from the largest
 // displacement of the box relative to the plate.
 namespace vibrotrough::theory {
 

@@ -25,6 +25,7 @@ TEST(SweptKeys, EveryKeyOfOneValueIsKnown) {
     Scenario scenario = campaign_with("").cases.front();
     scenario.trough.side_wall_friction = 0.1;
     scenario.trough.waveform = std::make_shared<Waveform>();
+    scenario.trough.waveform_order = 3;
     TroughMesh mesh{};
     mesh.files = {{"vee.stl", ""}};
     scenario.trough.mesh = std::make_shared<TroughMesh>(mesh);
