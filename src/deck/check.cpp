@@ -381,20 +381,6 @@ void check_each_material(std::vector<Finding>& findings, prepare::PreparedCase c
     findings.insert(findings.end(), worst.begin(), worst.end());
 }
 
-/// Between grains so small the air decides, which LIGGGHTS does not have here: it cannot escape during a
-/// throw.
-void check_air(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
-    constexpr double mm = 1e-3, noticeable = 0.5, decisive = 0.2;
-    double const diameter = mean_diameter(c.scenario) / mm;
-    if (diameter >= noticeable) return;
-    findings.push_back(
-        least("diameter of the grains, because of the air between them", "grains.diameter", diameter,
-              noticeable, decisive,
-              "use larger grains: between those below about 0.2 mm the air cannot escape during a "
-              "throw and carries the layer, and it is not simulated"));
-    findings.back().unit = "mm";
-}
-
 /// All checks but those of the whole run, for a drive without stages.
 std::vector<Finding> check_drive(prepare::PreparedCase const& prepared) {
     std::vector<Finding> findings;
@@ -410,7 +396,6 @@ std::vector<Finding> check_drive(prepare::PreparedCase const& prepared) {
         check_softness(findings, prepared);
         check_numerics(findings, prepared);
         check_sizes(findings, prepared);
-        check_air(findings, prepared);
         check_screen(findings, prepared);
     }
     check_stroke(findings, prepared);

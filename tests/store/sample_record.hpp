@@ -4,6 +4,8 @@
 #include "store/case_record.hpp"
 #include "store/schema.hpp"
 
+#include <memory>
+
 namespace vibrotrough::store {
 
 /// Columns of `length` values that differ from one another and from packing to packing.
@@ -40,7 +42,9 @@ inline void fill_layer(PackingRecord& packing, double first) {
 /// A case with two packings of different length whose numbers are easy to tell apart.
 /// `id` and `throw_number` may be chosen to make several.
 inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", double frequency = 13.5) {
-    scenario::Scenario scenario{};
+    auto const made =
+        std::make_unique<scenario::Scenario>();  // on the stack, GCC 12 takes it for uninitialized
+    scenario::Scenario& scenario = *made;
     scenario.campaign = "sample";
     scenario.trough.inclination = -0.05;
     scenario.trough.vibration_angle = 0.5;
