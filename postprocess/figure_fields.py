@@ -26,6 +26,7 @@ Floats = NDArray[np.float64]
 MILLI = 1e3
 GRAVITY = 9.81  # m/s2, of the decks
 MAP_PHASES = (1 / 4, 1 / 2, 1.0)  # cycles
+FEWEST_WAVES = 4  # of different length, for which the box needs about 15 diameters
 SPARSE = 0.05  # solid fraction below which no velocity is drawn
 STRESSES = ("contact_stress", "kinetic_stress", "convective_stress")
 
@@ -46,7 +47,7 @@ def plot_fields(source: "Source", case: str, result: vibrotrough.File, output: p
     weight = float(result["case/mass_per_area"]) * GRAVITY * float(np.cos(result["case/inclination"]))
     draw_profiles(axes[0], fields, weight)
     draw_maps(figure, axes[1], fields)
-    finish(figure, source, case, fields)
+    finish(figure, source, case, fields, [*zip(*axes[0, 2].get_legend_handles_labels()), *zip(*axes[0, 3].get_legend_handles_labels())])
     return save(figure, output)
 
 
@@ -65,11 +66,12 @@ def draw_profiles(axes: Any, fields: vibrotrough_fields.Fields, weight: float) -
                           linewidth=0, label="range over the cycle")  # fmt: skip
         one.plot(np.where(scarce, np.nan, line), height, color=COLOURS[0], label="mean over the cycle")
     parts = [mean[name][0, :, 2, 2] for name in STRESSES]
-    curves = ((np.sum(parts, axis=0), "all", 0), (parts[0], "contacts", 1), (parts[1], "kinetic", 2), (parts[2], "mean motion", 3))
+    curves = ((np.sum(parts, axis=0), "", 0), (parts[0], "stress by contacts", 1), (parts[1], "kinetic stress", 2),
+              (parts[2], "stress by the mean motion", 3))  # fmt: skip
     for values, name, style in curves:
         axes[3].plot(values, height, color=COLOURS[style], linestyle=DASHES[style], label=name)
-    axes[3].axvline(weight, color=GREY, linewidth=1, linestyle=DASHES[3], label="weight")
-    titles = ("solid fraction  [-]", "velocity along the trough  [m/s]", "granular temperature  [m\u00b2/s\u00b2]", "normal stress  [Pa]")
+    axes[3].axvline(weight, color=GREY, linewidth=1, linestyle=DASHES[3], label="weight of the layer")
+    titles = ("solid fraction  [-]", "velocity along\nthe trough  [m/s]", "granular temperature\n[m\u00b2/s\u00b2]", "normal stress  [Pa]")
     for one, title in zip(axes, titles):
         plain_axes(one)
         one.set_xlabel(title)
@@ -77,8 +79,6 @@ def draw_profiles(axes: Any, fields: vibrotrough_fields.Fields, weight: float) -
     axes[0].set_xlim(left=0)
     axes[0].set_ylabel("height above the trough  [mm]")
     axes[0].set_ylim(height[0], height[~scarce][-1])
-    axes[1].legend(frameon=False, fontsize=points(7))
-    axes[3].legend(frameon=False, fontsize=points(7))
 
 
 def draw_maps(figure: Figure, axes: Any, fields: vibrotrough_fields.Fields) -> None:
@@ -87,7 +87,8 @@ def draw_maps(figure: Figure, axes: Any, fields: vibrotrough_fields.Fields) -> N
     largest = everything["solid_fraction"].max()
     extent = (0, MILLI * fields.grid.length, height[0] - np.diff(height[:2])[0] / 2, height[-1] + np.diff(height[:2])[0] / 2)
     places = [int(np.abs(fields.phases - phase).argmin()) for phase in MAP_PHASES]
-    fastest = max(np.linalg.norm(everything["velocity"][place][everything["solid_fraction"][place] > SPARSE], axis=-1).max(initial=0) for place in places)
+    dense = everything["velocity"][places][everything["solid_fraction"][places] > SPARSE]
+    fastest = np.linalg.norm(dense, axis=-1).max(initial=0)
     picture = None
     for one, place in zip(axes, places):
         solid, velocity = everything["solid_fraction"][place], everything["velocity"][place]
@@ -97,10 +98,10 @@ def draw_maps(figure: Figure, axes: Any, fields: vibrotrough_fields.Fields) -> N
         speed = np.where((solid > SPARSE)[..., None], velocity, np.nan)[chosen]
         at_x, at_z = np.meshgrid(along[chosen[1].ravel()], height[chosen[0].ravel()])
         one.quiver(at_x, at_z, speed[..., 0], speed[..., 2], color="white", pivot="mid", width=0.006, scale=8 * max(fastest, 1e-12))
-        one.set_title(f"solid fraction, t / T = {fields.phases[place]:.3g}", fontsize=points(8))
+        one.set_title(f"solid, t / T = {fields.phases[place]:.3g}", fontsize=points(8))
     draw_streamlines(axes[3], fields, along, height)
     for one in axes:
-        one.set_xlabel("x in the trough  [mm]")
+        one.set_xlabel("x  [mm]")
         one.set_xlim(extent[:2])
     axes[0].set_ylabel("height above the trough  [mm]")
     if picture is not None:
@@ -114,15 +115,15 @@ def draw_streamlines(axes: Axes, fields: vibrotrough_fields.Fields, along: Float
     axes.imshow(mean, origin="lower", extent=extent, aspect="auto", cmap="Greys", vmin=0, vmax=1.5 * mean.max(), interpolation="nearest")
     if np.ptp(psi) > 0:
         axes.contour(along, height, np.where(mean > 0.02, psi, np.nan), levels=12, colors=COLOURS[1], linewidths=0.8)
-    axes.set_title("streamlines, mean over the cycle", fontsize=points(8))
+    axes.set_title("streamlines of the mean", fontsize=points(8))
 
 
-def finish(figure: Figure, source: "Source", case: str, fields: vibrotrough_fields.Fields) -> None:
+def finish(figure: Figure, source: "Source", case: str, fields: vibrotrough_fields.Fields, legend: list[tuple[Any, Any]]) -> None:
     figure.suptitle(case_title(source.row_of(case)), fontsize=points(10))
-    told = (f"coarse graining, width {MILLI * fields.grid.kernel.width:.3g} mm; {fields.frames} cycles of {len(fields.phases)} frames; "
-            "white arrows: velocity in the trough")  # fmt: skip
-    corner(figure, source.attributes, told)
-    figure.tight_layout(rect=(0, 0.03, 1, 1))
+    height = figure.get_size_inches()[1]
+    figure.legend(*zip(*legend), ncols=3, loc="upper center", frameon=False, fontsize=points(8), bbox_to_anchor=(0.5, 1 - 0.2 / height))
+    corner(figure, source.attributes, f"width of the kernel {MILLI * fields.grid.kernel.width:.3g} mm; arrows: velocity in the trough")
+    figure.tight_layout(rect=(0, 0.03, 1, 1 - 0.55 / height))
 
 
 def spectrum_of(packing: Any) -> tuple[Floats, Floats, Floats] | None:
@@ -159,7 +160,7 @@ def published_wavelength(frequency: float, depth: float) -> float:
 def plot_waves(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:
     packings = [one for one in Case(result.path.parent).packings() if one.has("surface.0.txt")]
     spectra = [found for one in packings if "stage_cycles/time" not in result and (found := spectrum_of(one)) is not None]
-    if not spectra:
+    if not spectra or len(spectra[0][0]) < FEWEST_WAVES:
         return []
     shortest = min(len(one[1]) for one in spectra)
     spectra = [one for one in spectra if len(one[1]) == shortest]
@@ -171,8 +172,7 @@ def plot_waves(source: "Source", case: str, result: vibrotrough.File, output: pa
     depth = float(result["case/mass_per_area"]) / float(result["case/grain_density"]) / observables.SETTLED
     draw_half_frequency(right, wave_numbers, amplitudes[int(np.abs(frequencies - 0.5).argmin())], published_wavelength(frequency, depth))
     figure.suptitle(case_title(source.row_of(case)), fontsize=points(10))
-    corner(figure, source.attributes, "published, of vertically vibrated layers: f/2 patterns above about 2.5 g (Umbanhowar et al. 1998), "
-                                      "their wavelength (Umbanhowar and Swinney 2000)")  # fmt: skip
+    corner(figure, source.attributes)
     figure.tight_layout(rect=(0, 0.03, 1, 1))
     return save(figure, output)
 
@@ -189,13 +189,14 @@ def draw_spectrum(axes: Axes, wave_numbers: Floats, frequencies: Floats, amplitu
 
 
 def draw_half_frequency(axes: Axes, wave_numbers: Floats, amplitudes: Floats, published: float) -> None:
-    axes.plot(wave_numbers / MILLI, MILLI * amplitudes, marker="o", markersize=4, color=COLOURS[0], label="layer")
-    axes.axvline(1 / published / MILLI, color=COLOURS[1], linestyle=DASHES[1], label=f"published: \u03bb = {MILLI * published:.3g} mm")
+    axes.plot(wave_numbers / MILLI, MILLI * amplitudes, marker="o", markersize=4, color=COLOURS[0])
+    label = f"published, vertical drive:\n\u03bb = {MILLI * published:.3g} mm, from 2.5 g on"
+    axes.axvline(1 / published / MILLI, color=COLOURS[1], linestyle=DASHES[1], label=label)
     best = int(amplitudes.argmax())
     axes.set_title(f"at f / 2: strongest {MILLI * amplitudes[best]:.2g} mm, \u03bb = {MILLI / wave_numbers[best]:.3g} mm", fontsize=points(9))
     axes.set_xlabel("wave number 1 / \u03bb  [1/mm]")
     axes.set_ylabel("amplitude at f / 2  [mm]")
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
-    axes.legend(frameon=False, fontsize=points(8))
+    axes.legend(frameon=False, fontsize=points(8), loc="upper right")
     plain_axes(axes)
