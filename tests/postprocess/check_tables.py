@@ -20,7 +20,7 @@ class Source:
     campaign = {"case": ["abc"]}
 
     def row_of(self, case):
-        return {"case": case, "throw_number": 2.0, "efficiency": 0.8, "efficiency_theory": None}
+        return {"case": case, "throw_number": 2.0, "efficiency": 0.8, "efficiency_theory": None, "outcome": "finished"}
 
 
 def drawn(plot, result):
