@@ -43,7 +43,7 @@ class MeshCampaign : public testing::Test {
 };
 
 TEST_F(MeshCampaign, TheLevelGivesTheGrains) {
-    write("vee.stl", vee());
+    write("vee.stl", short_vee());
     Scenario const s = scenario(on_mesh());
     // 12 mm above the lowest point: 36 mm (18 mm 12 mm - (18 mm)^2 / 4), 0.58 of it grains.
     double const volume = 0.036 * (0.018 * 0.012 - 0.018 * 0.018 / 4);
@@ -103,7 +103,7 @@ TEST_F(MeshCampaign, PairsGiveSolidsAFrictionOfTheirOwn) {
 }
 
 TEST_F(MeshCampaign, MistakesAreNamed) {
-    write("vee.stl", vee());
+    write("vee.stl", short_vee());
     EXPECT_THAT(error(on_mesh(with("length = \"36 mm\"", "length = \"35 mm\""))),
                 HasSubstr("trough.mesh: vee.stl: it is 36 mm long, and layer.length is 35 mm"));
     EXPECT_THAT(error(on_mesh(with("restitution = 0.5", "restitution = 0.5\nmesh_unit = \"m\""))),
@@ -123,7 +123,7 @@ TEST_F(MeshCampaign, MistakesAreNamed) {
     add_rectangle(slope, {0, 0, 0}, {36, 0, 2}, {36, 18, 2}, {0, 18, 0});
     write("vee.stl", slope);
     EXPECT_THAT(error(on_mesh()), HasSubstr("its two ends along the trough differ by 2 mm in height"));
-    std::vector<Triangle> closed = vee();
+    std::vector<Triangle> closed = short_vee();
     add_rectangle(closed, {41, -9, 9}, {41, 9, 9}, {41, 9, 12}, {41, -9, 12});
     write("vee.stl", closed);
     EXPECT_THAT(error(on_mesh()),

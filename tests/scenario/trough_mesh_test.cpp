@@ -65,7 +65,7 @@ double area_of(std::vector<Triangle> const& mesh) {
 
 // A V of 45 degrees holds h^2 per length below the level h, and w h - w^2 / 4 once it is full (w: its width).
 TEST(TroughMesh, VolumeBelowALevel) {
-    auto const mesh = read(vee());
+    auto const mesh = read(short_vee());
     EXPECT_EQ(mesh->extent, (Point{36, 18, 9}));
     // The grid of 100 places leaves (18 / 100)^2 / 12 per length at the bottom, and cuts the last cell.
     EXPECT_NEAR(mesh->volume_below(5), 36 * 25.0, 36 * 0.1);
@@ -78,7 +78,7 @@ TEST(TroughMesh, VolumeBelowALevel) {
 }
 
 TEST(TroughMesh, TextAndBinaryAreTheSame) {
-    auto const text = read(vee()), binary = read_trough_mesh({{"b.stl", binary_stl(vee())}});
+    auto const text = read(short_vee()), binary = read_trough_mesh({{"b.stl", binary_stl(short_vee())}});
     EXPECT_EQ(text->triangles, binary->triangles);
     // What is kept is text that reads back as the same mesh.
     EXPECT_EQ(read_trough_mesh(binary->files)->triangles, binary->triangles);
@@ -128,7 +128,8 @@ TEST(TroughMesh, SolidsOfATextArePartsOfTheMesh) {
     EXPECT_EQ(mesh->share_in_plan("rubber"), 0);
     EXPECT_THAT(read_trough_mesh({{"a.stl", stl_text("one", floor) + stl_text("one", liner)}})->parts,
                 testing::ElementsAre("one"));
-    EXPECT_THAT(read_trough_mesh({{"b.stl", binary_stl(vee())}})->part_of, testing::ElementsAre(0, 0, 0, 0));
+    EXPECT_THAT(read_trough_mesh({{"b.stl", binary_stl(short_vee())}})->part_of,
+                testing::ElementsAre(0, 0, 0, 0));
     // Solids without triangles are none, also those that seem to begin with "end solid".
     std::string const odd =
         stl_text("empty", {}) + stl_text("C:\\a\"b&", floor) + "end solid\n" + stl_text("", liner);
@@ -178,8 +179,8 @@ TEST(TroughMesh, StepsWallsAndHolesAreSeen) {
 // Cutting edges in the middle keeps the surface: the same area, no long edge, and nodes of both sides of a
 // cut edge fit, so that each edge inside the surface belongs to two triangles.
 TEST(TroughMesh, IsDividedWithoutGaps) {
-    std::vector<Triangle> const fine = divided(vee(), 4);
-    EXPECT_NEAR(area_of(fine), area_of(vee()), 1e-9);
+    std::vector<Triangle> const fine = divided(short_vee(), 4);
+    EXPECT_NEAR(area_of(fine), area_of(short_vee()), 1e-9);
     std::map<std::pair<Point, Point>, int> edges;
     for (Triangle const& t : fine) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -200,19 +201,19 @@ TEST(TroughMesh, IsDividedWithoutGaps) {
 // What changes nothing of the surface is mended and said: a copy (turned, too), a triangle without area,
 // corners that rounding has moved, and a corner in the edge of another triangle.
 TEST(TroughMesh, WhatIsHarmlessIsMended) {
-    std::vector<Triangle> mesh = vee();
+    std::vector<Triangle> mesh = short_vee();
     mesh.push_back({mesh[1][2], mesh[1][1], mesh[1][0]});
     mesh.push_back({{{5, 0, 0}, {20, 0, 0}, {41, 0, 0}}});
     mesh[2][1][1] += 1e-5;
     auto const mended = read(mesh);
-    EXPECT_NEAR(area_of(mended->triangles), area_of(vee()), 1e-3);
+    EXPECT_NEAR(area_of(mended->triangles), area_of(short_vee()), 1e-3);
     ASSERT_EQ(mended->repairs.size(), 3u);
     EXPECT_THAT(mended->repairs[0], HasSubstr("1 corners were joined"));
     EXPECT_THAT(mended->repairs[1],
                 HasSubstr("1 triangles without area were left out: triangle 6 at (5, 0, 0)"));
     EXPECT_THAT(mended->repairs[2], HasSubstr("1 copies of triangles were left out: triangle 5"));
 
-    std::vector<Triangle> split = vee();
+    std::vector<Triangle> split = short_vee();
     split[0] = {{{5, -9, 9}, {41, -9, 9}, {23, -4.5, 4.5}}};
     split.push_back({{{41, -9, 9}, {41, 0, 0}, {23, -4.5, 4.5}}});
     auto const divided_there = read(split);
@@ -220,7 +221,7 @@ TEST(TroughMesh, WhatIsHarmlessIsMended) {
     EXPECT_THAT(divided_there->repairs[0],
                 HasSubstr("1 edges were divided where a corner lies in them: at (23, -4.5, 4.5)"));
     EXPECT_EQ(divided_there->triangles.size(), 6u);
-    EXPECT_NEAR(area_of(divided_there->triangles), area_of(vee()), 1e-9);
+    EXPECT_NEAR(area_of(divided_there->triangles), area_of(short_vee()), 1e-9);
 }
 
 // A strip of 1 x 600 has angles of 0.1 degrees, below the engine's 0.26. A row of triangles with legs of 1
@@ -244,21 +245,21 @@ TEST(TroughMesh, WhatIsWrongIsSaid) {
     EXPECT_EQ(error(""), "it is neither a text nor a binary STL");
     EXPECT_EQ(error("solid a\nendsolid a\n"), "it has no triangles");
     EXPECT_EQ(error("solid a\nvertex 1 2 x\n"), "a corner of triangle 1 is not three numbers");
-    EXPECT_EQ(error("solid vertex of a chute\n" + stl_text("a", vee()).substr(8)), "no error");
-    std::string capitals = "\xEF\xBB\xBF" + stl_text("a", vee());
+    EXPECT_EQ(error("solid vertex of a chute\n" + stl_text("a", short_vee()).substr(8)), "no error");
+    std::string capitals = "\xEF\xBB\xBF" + stl_text("a", short_vee());
     std::ranges::transform(capitals, capitals.begin(), [](unsigned char c) { return std::toupper(c); });
     EXPECT_EQ(error(capitals), "no error");
     EXPECT_EQ(error("solid a\nvertex 1 2 3\n"), "its last triangle has fewer than three corners");
     EXPECT_EQ(error(stl_text("a", {{{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}}}})),
               "none of its triangles has an area");
-    std::string const text = stl_text("a", vee());
+    std::string const text = stl_text("a", short_vee());
     EXPECT_EQ(error(text.substr(0, text.find("endfacet"))),
               "it ends within triangle 1, so that a part of it is missing");
     EXPECT_THAT(error("solid a\nvertex 0,5 1,25 2\n"), HasSubstr("triangle 1 has decimal commas (0,5)"));
     EXPECT_EQ(error(stl_text("a", {{{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}}})),
               "its surface has no length or no width");
     EXPECT_THAT(error("solid a\nvertex nan 0 0\nvertex 1 0 0\nvertex 0 1 0\n"), HasSubstr("triangle 1"));
-    std::string const whole = binary_stl(vee());
+    std::string const whole = binary_stl(short_vee());
     EXPECT_EQ(error(whole.substr(0, whole.size() - 1)),
               "it is a binary STL of 4 triangles by its header, but it has room for 3.98; a part of it may "
               "be missing");

@@ -92,7 +92,7 @@ def judge(run: ValidationCase) -> None:
 
 def judge_plant(run: ValidationCase) -> None:
     """Machines as plants ask for them: what was promised with a probability is what the layers carry."""
-    rows = [row for row in run.table("plant.csv") if row["probability"]]
+    rows = [row for row in run.table("plant.csv") if row["simulated_t_per_h"]]
     low, high, simulated, width = (
         np.array([float(row[f"{name}_t_per_h"]) for row in rows]) for name in ("promised_low", "promised_high", "simulated", "simulated_half_width")
     )
