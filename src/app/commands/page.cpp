@@ -48,9 +48,9 @@ fs::path built_page() {
     for (fs::path const& file : {installed, (program / page_of_build).lexically_normal()})
         if (fs::is_regular_file(file, failure)) return file;
     throw core::MissingError(
-        "the page was not built with this program; install emscripten and run, where Vibrotrough was built, "
-        "'cmake --preset release && cmake --build build/release --target page', or install its Debian "
-        "package");
+        "the page was not built with this program; run './setup page' where Vibrotrough was built, or "
+        "install "
+        "its Debian package");
 }
 
 std::string name_of(std::string const& path) {

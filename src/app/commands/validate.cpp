@@ -44,7 +44,7 @@ void add_validate(CLI::App& program, int& exit_code) {
   --points N  number of points along each axis of a map of the theory; default 300
   --store     keep tables, figures and verdicts in validation/ itself
   --page      print the stored verdicts and findings in Markdown, and run nothing
-  --claims    compare the numbers in pages of the project with the stored tables that they come from,
+  --claims    compare the numbers in pages with the stored tables that they come from,
               and run nothing; with --store, write the numbers
   --verbose   show what the cases print instead of writing it to their logs
 
