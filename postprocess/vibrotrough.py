@@ -16,7 +16,7 @@
 
 Everything is read at once, so files may be renewed meanwhile. A damaged file is refused with ValueError. `vibrotrough quantities` prints
 all names. Names of older versions are still understood.
-Needs h5py and numpy, and to_dataframe() pandas; the theory needs its compiled part (pip install --no-build-isolation ./postprocess).
+Needs numpy, results h5py, and to_dataframe() pandas; the theory needs its compiled part (pip install --no-build-isolation ./postprocess).
 """
 
 from __future__ import annotations
@@ -26,11 +26,21 @@ import os
 import pathlib
 import stat
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import h5py
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+if TYPE_CHECKING:
+    import h5py
+
+
+def _hdf5() -> Any:
+    """h5py, which only results need: the theory and the atlas do without."""
+    try:
+        return importlib.import_module("h5py")
+    except ImportError as error:
+        raise ImportError("results are read with h5py; install it: pip install 'vibrotrough[results]', or Debian's python3-h5py") from error
 
 
 def __getattr__(name: str) -> Any:
@@ -73,7 +83,7 @@ class Array(np.ndarray[Any, np.dtype[Any]]):
 
 
 def _read(dataset: h5py.Dataset) -> Array:
-    values = dataset.asstr()[()] if h5py.check_string_dtype(dataset.dtype) else dataset[()]
+    values = dataset.asstr()[()] if _hdf5().check_string_dtype(dataset.dtype) else dataset[()]
     if "units" not in dataset.attrs:
         raise ValueError(f"{dataset.name} does not tell its units; Vibrotrough did not write it")
     return Array(values, text(dataset.attrs["units"]), text(dataset.attrs.get("description", "")))
@@ -144,7 +154,7 @@ class File:
         if not self.path.is_file():
             raise OSError(f"{self.path} is not a file")
         try:
-            with h5py.File(self.path) as file:
+            with _hdf5().File(self.path) as file:
                 self.attributes: dict[str, Any] = {name: text(value) if isinstance(value, (bytes, str)) else value for name, value in file.attrs.items()}
                 found = self.attributes.get("format")
                 if found not in wanted_formats:
@@ -156,7 +166,7 @@ class File:
             raise ValueError(f"{self.path} is damaged ({error}); delete it, and let vibrotrough make it again") from error
 
     def _keep(self, name: str, item: object) -> None:
-        if not isinstance(item, h5py.Dataset):
+        if not isinstance(item, _hdf5().Dataset):
             return
         if item.dtype.names is None:
             self._arrays[current_name(name)] = _read(item)

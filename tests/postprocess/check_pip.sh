@@ -14,3 +14,14 @@ cd /
 version=$("$folder/env/bin/python" -c 'import importlib.metadata; print(importlib.metadata.version("vibrotrough"))')
 "$3" --version | head -n 1 | grep -F "$version" >&2
 "$folder/env/bin/python" -B "$(dirname "$(readlink -f "$0")")/check_theory.py" "$3" "$folder"
+# Without h5py the theory is there, and results say what to install.
+"$folder/env/bin/python" -c 'import sys
+sys.modules["h5py"] = None
+import vibrotrough
+assert vibrotrough.theory.solve(throw_number=2, tan_vibration_angle=0.5, friction=0.23).velocity_efficiency > 0
+try:
+    vibrotrough.open_campaign(sys.executable)
+except ImportError as error:
+    assert "vibrotrough[results]" in str(error), error
+else:
+    sys.exit("h5py was not needed")'
