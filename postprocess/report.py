@@ -114,7 +114,7 @@ class Figures:
 
 
 # Before the efficiencies, because a screen is narrower than the table.
-WHAT_A_MACHINE_DOES = ("screening_efficiency", "cut_size", "screen_distance", "outflow", "residence_time", "conveying_speed_m_per_s",
+WHAT_A_MACHINE_DOES = ("screening_efficiency", "cut_size_mm", "screen_distance_m", "outflow_t_per_h", "residence_time_s", "conveying_speed_m_per_s",
                        "mass_flow_t_per_h", "mass_flow_per_width_t_per_h_m")
 # Of which machine which figures of a case stand at the top, beside the answer.
 FIRST_FIGURES = {"screen": ("screening", "partition"), "open trough": ("along", "residence"), "layer": ()}

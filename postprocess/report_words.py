@@ -105,43 +105,45 @@ def atlas(cases: list[Case]) -> str:
 
 def kind_of(cases: list[Case]) -> str:
     """Which machine was simulated: "screen", "open trough" or "layer", a periodic piece of a trough."""
-    for kind, name in (("screen", "screening_efficiency"), ("open trough", "residence_time")):
+    for kind, name in (("screen", "screening_efficiency"), ("open trough", "residence_time_s")):
         if any(case.get(name) is not None for case in cases):
             return kind
     return "layer"
 
 
-def measured(case: Case, name: str, unit: str, factor: float = 1.0) -> str:
-    """A number with its interval, each to three digits; "not known" where it is none."""
-    value, half_width = case.get(name), case.get(f"{name}_half_width")
+def measured(case: Case, name: str, unit: str, words: str = "", factor: float = 1.0) -> str:
+    """A number of a column with its interval, each to three digits, and `words` behind it; empty when it is not known.
+
+    `unit`: with which the name of the column ends, "t_per_h"; empty for a pure number."""
+    end = f"_{unit}" if unit else ""
+    value, half_width = case.get(f"{name}{end}"), case.get(f"{name}_half_width{end}")
     if value is None:
-        return "not known"
-    return f"{factor * value:.3g}" + ("" if half_width is None else f" \u00b1 {factor * half_width:.2g}") + f" {unit}"
+        return ""
+    return f"{factor * value:.3g}" + ("" if half_width is None else f" \u00b1 {factor * half_width:.2g}") + words
 
 
 def screens(cases: list[Case]) -> list[str]:
     """What is asked of a screen: what passes, at which size it parts, on which length, and how much of it a metre of width takes."""
     known = sorted((case for case in cases if case.get("screening_efficiency") is not None), key=lambda case: -float(case["screening_efficiency"]))
     told = []
-    for number, case in enumerate(known[:2] if len(known) > 1 else known):
-        flow = measured(case, "underflow", "t/h pass it", 3.6) if case.get("underflow") is not None else ""
-        carried = mass_flow(case)
-        told.append(f"{'The screen passes' if number == 0 else 'The next best passes'} {measured(case, 'screening_efficiency', '% of the undersize', 100)}"
-                    + (f" {place_of(case)}" if len(known) > 1 else "") + f", with a cut size d50 of {measured(case, 'cut_size', 'mm', 1000)}"
-                    + (f", on a length of {measured(case, 'screen_distance', 'm')}" if case.get("screen_distance") is not None else "")
-                    + (f", and conveys {carried}" if carried else "") + (f"; {flow}" if flow else "") + ".")
+    for number, case in enumerate(known[:2]):
+        parts = (("with a cut size d50 of", measured(case, "cut_size", "mm", " mm")), ("on a length of", measured(case, "screen_distance", "m", " m")),
+                 ("and conveys", mass_flow(case)), ("and lets pass", measured(case, "underflow", "t_per_h", " t/h")))  # fmt: skip
+        told.append(f"{'The screen passes' if number == 0 else 'The next best passes'} "
+                    + measured(case, "screening_efficiency", "", " % of the undersize", 100) + (f" {place_of(case)}" if len(known) > 1 else "")
+                    + "".join(f", {words} {number_and_unit}" for words, number_and_unit in parts if number_and_unit) + ".")
     return told
 
 
 def open_troughs(cases: list[Case]) -> list[str]:
     """What is asked of an open trough: how much it carries, and how long the material stays in it."""
-    known = [case for case in cases if case.get("residence_time") is not None and case.get("outflow") is not None]
+    known = [case for case in cases if case.get("residence_time_s") is not None and case.get("outflow_t_per_h") is not None]
     if not known:
         return []
-    most = max(known, key=lambda case: float(case["outflow"]))
+    most = max(known, key=lambda case: float(case["outflow_t_per_h"]))
     refused = [case for case in cases if case["outcome"] == "overfull"]
-    told = (f"The trough carries {measured(most, 'outflow', 't/h', 3.6)}" + (f" {place_of(most)}" if len(cases) > 1 else "")
-            + (", the most of what was simulated" if len(known) > 1 else "") + f"; its grains stay in it for {measured(most, 'residence_time', 's')}.")
+    told = (f"The trough carries {measured(most, 'outflow', 't_per_h', ' t/h')}" + (f" {place_of(most)}" if len(cases) > 1 else "")
+            + (", the most of what was simulated" if len(known) > 1 else "") + f"; its grains stay in it for {measured(most, 'residence_time', 's', ' s')}.")
     return [told, f"It does not carry what was fed {', '.join(place_of(case) for case in refused)}." if refused else
             "No larger feed was simulated that it does not carry: 'vibrotrough capacity' finds the largest."]
 

@@ -179,11 +179,11 @@ def check_words(scripts):
         "The atlas of simulated layers agrees with 1 of the 2 cases inside of it, within both intervals. It is furthest off at friction 0.3: "
         "it says \u03b7 = 0.53 \u00b1 0.08, and the layer has 0.80. One of them is wrong there."), conclusion([inside, far, case])
     # A screen and an open trough are asked for something else; the point mass is not mentioned at all.
-    screen = dict(case, screening_efficiency=0.82, screening_efficiency_half_width=0.03, cut_size=0.0041, cut_size_half_width=1e-4, screen_distance=1.2,
-                  screen_distance_half_width=None, mass_flow_per_width_t_per_h_m=9.3)
+    screen = dict(case, screening_efficiency=0.82, screening_efficiency_half_width=0.03, cut_size_mm=4.1, cut_size_half_width_mm=0.1, screen_distance_m=1.2,
+                  screen_distance_half_width_m=None, mass_flow_per_width_t_per_h_m=9.3)
     assert conclusion([screen])[0].startswith("The screen passes 82 \u00b1 3 % of the undersize, with a cut size d50 of 4.1 \u00b1 0.1 mm, on a length of 1.2 m,")
-    assert conclusion([dict(screen, label="friction 0.3", screening_efficiency=0.5, cut_size=None), screen])[1].startswith("The next best passes 50 \u00b1 3 % of the undersize")
-    trough = dict(case, outflow=2.0, outflow_half_width=0.1, residence_time=12.0, residence_time_half_width=0.5)
+    assert conclusion([dict(screen, label="friction 0.3", screening_efficiency=0.5, cut_size_mm=None), screen])[1].startswith("The next best passes 50 \u00b1 3 % of the undersize")
+    trough = dict(case, outflow_t_per_h=7.2, outflow_half_width_t_per_h=0.36, residence_time_s=12.0, residence_time_half_width_s=0.5)
     assert conclusion([trough])[0] == "The trough carries 7.2 \u00b1 0.36 t/h; its grains stay in it for 12 \u00b1 0.5 s.", conclusion([trough])
     overfull = dict(case, efficiency=None, conveying_speed_m_per_s=None, label="feed 9 t/h", outcome="overfull")
     assert conclusion([trough, overfull])[1] == "It does not carry what was fed at feed 9 t/h.", conclusion([trough, overfull])
