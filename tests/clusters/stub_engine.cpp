@@ -56,11 +56,13 @@ void drive(std::string const& deck) {
     table.precision(15);
     table << "# SI units\nstep,grains,x_com,z_com,vz_com,mean_vx,mean_force_x,mean_force_z,flight_fraction\n";
     write_layer(deck, cycles, steps, weight);
+    double const frequency = number_after(deck, ", frequency ");
     double x = 0.01;
     for (int k = 0; k <= cycles; ++k) {
-        if (k > 0) x += k % 2 == 0 ? 0.0101 : 0.0099;
-        table << k * steps << ',' << grains << ',' << x << ",0.01,0,0.1,0.01," << (k > 0 ? -weight : 0)
-              << ",0.5\n";
+        double const way = k % 2 == 0 ? 0.0101 : 0.0099;
+        if (k > 0) x += way;
+        table << k * steps << ',' << grains << ',' << x << ",0.01,0," << way * frequency << ",0.01,"
+              << (k > 0 ? -weight : 0) << ",0.5\n";
     }
     std::printf("VIBROTROUGH BEGIN cycle 0\nVIBROTROUGH DONE step %d grains %d\n", cycles * steps, grains);
 }

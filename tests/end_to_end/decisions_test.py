@@ -111,7 +111,7 @@ class Engineer(EndToEndTest):
                                 (["--objective", "least-power", "--model", "point-mass", "--inclination", "8 deg"], True),  # steeper than any that was simulated
                                 (["--friction-uncertainty", "0.05", "--inclination", "-3 deg to 2 deg"], False),
                                 (["--friction-uncertainty", "0.1", "--machine-number", "4"], False)):  # a deep layer
-            design = self.design("--friction", "0.35", "--grain-diameter", "6 mm", *words, "--campaign", campaign, wanted=1 if untested else 0)
+            design = self.design("--friction", "0.35", "--grain-diameter", "6 mm", *words, "--campaign", campaign, "--force", wanted=1 if untested else 0)
             self.assertEqual((design["probability"] is None, design["sentence"].startswith("Not tested")), (untested, untested))
             checked = self.call("check", campaign)
             self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)

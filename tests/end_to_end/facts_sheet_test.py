@@ -27,7 +27,7 @@ class FactsSheet(EndToEndTest):
         (row,) = self.table()
         self.assertEqual((row["outcome"], row["soft"]), ("not-precise", "soft"))
         self.assertLessEqual(row["efficiency_half_width_statistics"], 0.03)
-        self.assertGreater(row["efficiency_half_width"], 0.1)
+        self.assertGreater(row["efficiency_half_width"], 0.03)
         self.assertEqual(row["packings"], 3)
         self.assertGreaterEqual(row["efficiency"], 0.79)
         self.assertLessEqual(row["efficiency"], 0.86)
