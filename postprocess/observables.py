@@ -119,37 +119,38 @@ def force_distribution(cycle):
     return (edges[:-1] + edges[1:]) / 2, share / len(forces) / np.diff(edges)
 
 
-def profiles(cycle, with_contacts=False):
-    """Heights and coarse-grained profiles in the frame of the trough: see help(vibrotrough_fields)."""
-    return vibrotrough_fields.profiles_of_cycle(cycle.packing, cycle.number, bins_over_height(cycle.packing)[-1], with_contacts)
+def profile(cycle, take, with_contacts=False):
+    """Heights, and what `take` makes of the coarse-grained profiles in the frame of the trough: see help(vibrotrough_fields).
+
+    None where the motion within the cycle is not kept, as for screens and open troughs."""
+    if len(cycle.packing.phases()["phase"]) == 0:
+        return None
+    height, found = vibrotrough_fields.profiles_of_cycle(cycle.packing, cycle.number, bins_over_height(cycle.packing)[-1], with_contacts)
+    return height, take(found)
 
 
 @vibrotrough.observable(over=("height", "m"))
 def solid_fraction_profile(cycle):
     """Volume of the grains per volume over the height above the trough, by coarse graining with a kernel of one diameter."""
-    height, found = profiles(cycle)
-    return height, found["solid_fraction"]
+    return profile(cycle, lambda found: found["solid_fraction"])
 
 
 @vibrotrough.observable(unit="m/s", over=("height", "m"))
 def velocity_profile(cycle):
     """Mean velocity along the trough and relative to it, of the mass, over the height above it."""
-    height, found = profiles(cycle)
-    return height, found["velocity"][:, 0]
+    return profile(cycle, lambda found: found["velocity"][:, 0])
 
 
 @vibrotrough.observable(unit="m2/s2", over=("height", "m"))
 def temperature_profile(cycle):
     """Granular temperature over the height above the trough: a third of the mean square of velocities relative to the mean at that height and moment."""
-    height, found = profiles(cycle)
-    return height, found["granular_temperature"]
+    return profile(cycle, lambda found: found["granular_temperature"])
 
 
 @vibrotrough.observable(unit="Pa", needs="contacts", over=("height", "m"))
 def stress_profile(cycle):
     """Normal stress by contacts and by velocities relative to the trough, over the height above it; the lowest is the force on the floor."""
-    height, found = profiles(cycle, with_contacts=True)
-    return height, sum(found[name][:, 2, 2] for name in ("contact_stress", "kinetic_stress", "convective_stress"))
+    return profile(cycle, lambda found: sum(found[name][:, 2, 2] for name in ("contact_stress", "kinetic_stress", "convective_stress")), with_contacts=True)
 
 
 def surface_snapshots(folder):

@@ -35,7 +35,7 @@ struct Motor {
 
 /// Two motors that turn against each other, and to what of their static moment both are set.
 struct ChosenMotors {
-    Motor motor;
+    Motor motor;        ///< each of the two
     double setting;     ///< of the largest static moment, in (0, 1]
     bool is_converted;  ///< it runs from a frequency converter, well below its own speed
 };

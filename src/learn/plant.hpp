@@ -15,7 +15,7 @@ namespace vibrotrough::learn {
 
 /// A common bulk material, as far as it is usually known.
 struct BulkMaterial {
-    std::string name;
+    std::string name;                ///< by which an option chooses it
     theory::Range bulk_density;      ///< kg/m^3
     theory::Range friction;          ///< on steel
     theory::Range rolling_friction;  ///< of the grains
@@ -48,7 +48,7 @@ std::vector<Motor> read_motors(std::string_view text, std::string const& file);
 
 /// A kind of grains that no model here knows.
 struct GrainKind {
-    std::string_view name;
+    std::string_view name;    ///< by which an option chooses it
     bool is_refused;          ///< there is no answer; else one without a probability
     std::string_view reason;  ///< without a full stop
 };

@@ -78,6 +78,7 @@ class QuantityOptions {
     bool has(std::string const& name) const { return texts_.at(name).has_value(); }
     /// Puts a text in place of what the user wrote, or of what was not given, where the option is declared.
     void set(std::string const& name, std::string const& text);
+    /// The same where the user wrote nothing.
     void set_if_missing(std::string const& name, std::string const& text);
     /// Its value in the SI unit; none when it was not given. @throws core::InputError as read_option
     std::optional<double> value(std::string const& name) const;

@@ -14,6 +14,7 @@ namespace vibrotrough::scenario {
 enum class ContactModel { hertz, hooke };
 /// Their words in the campaign file and in LIGGGHTS.
 inline constexpr std::array<std::string_view, 4> contact_words{"hertz", "hooke"};
+/// What the key engine.contact means, for its help.
 inline constexpr std::string_view contact_meaning =
     "normal force of the contacts; hertz: proportional to overlap^(3/2), as elasticity theory says; "
     "hooke: a linear spring as stiff as a Hertz contact in the fastest expected impact";
