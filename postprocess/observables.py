@@ -122,9 +122,10 @@ def force_distribution(cycle):
 def profile(cycle, take, with_contacts=False):
     """Heights, and what `take` makes of the coarse-grained profiles in the frame of the trough: see help(vibrotrough_fields).
 
-    None where the motion within the cycle is not kept, as for screens and open troughs."""
+    Not numbers where the motion within the cycle is not kept, as for screens and open troughs."""
     if len(cycle.packing.phases()["phase"]) == 0:
-        return None
+        edges = bins_over_height(cycle.packing)
+        return (edges[:-1] + edges[1:]) / 2, np.full(len(edges) - 1, np.nan)
     height, found = vibrotrough_fields.profiles_of_cycle(cycle.packing, cycle.number, bins_over_height(cycle.packing)[-1], with_contacts)
     return height, take(found)
 

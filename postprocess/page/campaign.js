@@ -73,7 +73,7 @@ vibration_angle = "${plain(one.vibration_angle_deg)} deg"
 inclination = "${plain(one.inclination_deg)} deg"
 width = "${plain(one.width_mm)} mm"
 friction = ${plain(one.friction)}
-restitution = 0.5        # assumed
+restitution = 0.6026     # assumed: the middle of what was simulated
 
 [grains]
 diameter = "${plain(one.grain_mm)} mm"
@@ -81,7 +81,7 @@ diameter_spread = 0.1    # assumed: grains of one size pack like a crystal
 bulk_density = "${plain(one.bulk_density)} kg/m3"
 ${rolling}poisson_ratio = 0.35     # assumed
 friction = 0.5           # assumed: of grain on grain
-restitution = 0.5        # assumed
+restitution = 0.6026     # assumed: the middle of what was simulated
 
 [layer]                  # a piece out of the middle of the trough, periodic along and across
 length = "${plain(length)} mm"
