@@ -120,12 +120,7 @@ def force_distribution(cycle):
 
 
 def profile(cycle, take, with_contacts=False):
-    """Heights, and what `take` makes of the coarse-grained profiles in the frame of the trough: see help(vibrotrough_fields).
-
-    Not numbers where the motion within the cycle is not kept, as for screens and open troughs."""
-    if len(cycle.packing.phases()["phase"]) == 0:
-        edges = bins_over_height(cycle.packing)
-        return (edges[:-1] + edges[1:]) / 2, np.full(len(edges) - 1, np.nan)
+    """Heights, and what `take` makes of the coarse-grained profiles in the frame of the trough: see help(vibrotrough_fields)."""
     height, found = vibrotrough_fields.profiles_of_cycle(cycle.packing, cycle.number, bins_over_height(cycle.packing)[-1], with_contacts)
     return height, take(found)
 
