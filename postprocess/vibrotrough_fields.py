@@ -268,10 +268,14 @@ def densities_of(packing: Packing) -> dict[int, float]:
 
 
 def trough_velocities(packing: Packing, phases: Floats) -> Floats:
-    """Velocity of the trough at phases, in cycles, (phases, 3): by the Fourier series of what a cycle of the engine gave, m/s."""
+    """Velocity of the trough at phases, in cycles, (phases, 3): by the Fourier series of what a cycle of the engine gave, m/s.
+
+    Zero where the motion within the cycle is not kept (screens, open troughs): means over a cycle are the same."""
     known = packing.phases()
     first = np.asarray(known["phase"]) < 2 * np.pi * (1 + 1e-9)
     count = int(first.sum())
+    if count == 0:
+        return np.zeros((len(phases), 3))
     orders = np.arange((count - 1) // 2 + 1)
     velocities = np.zeros((len(phases), 3))
     for axis, name in ((0, "trough_velocity_x"), (2, "trough_velocity_z")):

@@ -25,8 +25,8 @@ CASES = {"0123456789abcdef": 0.55, "fedcba9876543210": None}
 # What `vibrotrough convergence` writes, as far as the figure reads it: of a case, and of one that is no longer there.
 BUDGETS = {"format": "vibrotrough numerics", "schema_version": 1, "cases": [
     {"case": case, "numerical_error": error, "settings": [
-        {"setting": "youngs_modulus", "title": "Young's modulus", "verdict": "extrapolated", "bound": 0.03},
-        {"setting": "length", "title": "length of the box", "verdict": "not-resolved", "bound": 0.04},
+        {"setting": "youngs_modulus", "title": "Young's modulus", "verdict": "extrapolated", "error": 0.02, "error_half_width": 0.012, "bound": 0.03},
+        {"setting": "length", "title": "length of the box", "verdict": "not-resolved", "error": 0.01, "error_half_width": 0.036, "bound": 0.04},
         {"setting": "width", "title": "width of the box", "verdict": "left-out", "bound": 0.0}]}
     for case, error in (("0123456789abcdef", 0.05), ("fedcba9876543210", None), ("bbbbbbbbbbbb", 0.1))]}
 
