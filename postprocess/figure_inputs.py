@@ -94,17 +94,18 @@ def split_inputs(columns: Columns, inputs: list[Input]) -> tuple[Input, list[Inp
     numbers = [one for one in inputs if not one.is_text]
     if len(set(np.round(gamma.values, 9))) > 1 or not numbers:
         follow = DRIVE if {one.key for one in inputs} & set(DRIVE) else STROKE
-        return gamma, independent(gamma, [one for one in inputs if one.key not in follow])
-    return numbers[0], independent(numbers[0], [one for one in inputs if one is not numbers[0]])
+        drive_first = sorted(inputs, key=lambda one: one.key not in follow)
+        return gamma, [one for one in independent(drive_first) if one.key not in follow]
+    return numbers[0], independent(sorted(inputs, key=lambda one: one is not numbers[0]))[1:]
 
 
-def independent(over: Input, others: list[Input]) -> list[Input]:
-    """Without inputs that vary together with another one, as those of [zip] do: they would make a series of each point."""
-    kept = [over]
-    for one in others:
+def independent(inputs: list[Input]) -> list[Input]:
+    """Without swept keys that vary together with an earlier one, as those of [zip] do: they would make a series of each point."""
+    kept: list[Input] = []
+    for one in inputs:
         if not any(vary_together(one, other) for other in kept):
             kept.append(one)
-    return kept[1:]
+    return kept
 
 
 def vary_together(one: Input, other: Input) -> bool:

@@ -240,7 +240,7 @@ def energy(packing):
         self.assertIn(f"mine is not measured in {second.name}", done.stderr)
 
     def test_what_belongs_to_an_earlier_result_is_left_aside(self):
-        changes = {"grains.youngs_modulus": "1 MPa", "measure.packings": 2, "measure.half_width": 0.25,  # more than the numerical errors of these grains
+        changes = {"grains.youngs_modulus": "1 MPa", "measure.packings": 2, "measure.half_width": 0.15,  # more than the numerical errors of these grains
                    "measure.max_cycles": 20}  # fmt: skip
         self.run_campaign(self.write_campaign(changes), wanted=None)
         self.assertEqual(self.observe(file=self.write(AGAIN)).returncode, 0)

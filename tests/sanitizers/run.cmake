@@ -10,6 +10,7 @@ execute_process(COMMAND_ERROR_IS_FATAL ANY
     COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${FOLDER} -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1
             -DVIBROTROUGH_SANITIZE=ON -DVIBROTROUGH_VIEW=OFF -DBUILD_TESTING=ON)
 execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND ${CMAKE_COMMAND} --build ${FOLDER} --target ${targets})
+set(ENV{LSAN_OPTIONS} "suppressions=${CMAKE_CURRENT_LIST_DIR}/leaks.txt:print_suppressions=0")
 # Some tests with the label of a room are those of the whole program, which is not built here.
 execute_process(COMMAND_ERROR_IS_FATAL ANY
     COMMAND ${CTEST} --test-dir ${FOLDER} --output-on-failure --parallel ${processors} -L "^(${labels}|fuzz)$" -E "InTheDocs|ReadByH5py")

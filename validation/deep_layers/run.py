@@ -13,7 +13,6 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 import extrapolation  # noqa: E402
 import pairs  # noqa: E402
-import studies  # noqa: E402
 from campaign_program import Row, campaign_text  # noqa: E402
 from criterion import CANDIDATES, CONTROL, inputs, judges, on_grid, power_law, wave_number  # noqa: E402
 from figure_style import COLOURS, plt  # noqa: E402
@@ -243,9 +242,6 @@ def main() -> None:
     cheaper(run, rows, judging)
     if not run.control:
         run.follows("errors.csv", ERRORS, error_rows(on, by))
-        layers = studies.table(run)
-        run.follows("studies.csv", studies.COLUMNS, layers)
-        run.follows("studies_summary.csv", studies.SUMMARY, studies.summary(layers))
     draw(run, on, by)
     run.finish()
 

@@ -57,7 +57,7 @@ std::vector<OptionRow> rows_of_motions() {
     using theory::Input;
     return {
         within(1e-3, 100, of_key("--throw-number", "trough.throw_number", Input::throw_number)),
-        of_key("--machine-number", "trough.machine_number", Input::machine_number),
+        within(1e-3, 1e4, of_key("--machine-number", "trough.machine_number", Input::machine_number)),
         within(0, 89 * degree, of_key("--vibration-angle", "trough.vibration_angle")),
         of_key("--tan-vibration-angle", "trough.tan_vibration_angle", Input::tan_vibration_angle),
         of_key("--inclination", "trough.inclination"),
