@@ -23,6 +23,7 @@
 #include <system_error>
 
 #include <CLI/CLI.hpp>
+#include <boost/system/system_error.hpp>
 #include <fmt/format.h>
 
 namespace vibrotrough::app {
@@ -183,6 +184,12 @@ void flush_output() {
         "cannot write the output ({}); free disk space or choose another place", core::reason_of(errno)));
 }
 
+/// What the operating system refused. @return the exit code
+int tell_of_system(std::exception const& error) {
+    tell("vibrotrough: {}; check the disk and its permissions, and the limits (ulimit -a)\n", error.what());
+    return something_missing;
+}
+
 }  // namespace
 
 int run_program(std::string_view program_with_vtk, int argc, char** argv) {
@@ -196,9 +203,9 @@ int run_program(std::string_view program_with_vtk, int argc, char** argv) {
         for (std::string const& problem : error.problems()) tell("vibrotrough: {}\n", problem);
         return error.kind() == core::ErrorKind::input ? wrong_input : something_missing;
     } catch (std::system_error const& error) {
-        tell("vibrotrough: {}; check the disk and its permissions, and the limits (ulimit -a)\n",
-             error.what());
-        return something_missing;
+        return tell_of_system(error);
+    } catch (boost::system::system_error const& error) {
+        return tell_of_system(error);
     } catch (std::bad_alloc const&) {
         tell("vibrotrough: there is not enough memory; use a smaller campaign or another machine\n");
         return something_missing;

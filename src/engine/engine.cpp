@@ -285,8 +285,10 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
                       }));
         lock.note_group(state_->process.id());
     } catch (bp::process_error const& error) {
+        // Boost 1.74 does not notice that /dev/null could not be opened, only that the process cannot use it.
+        int const reason = error.code().value() == EBADF ? EMFILE : error.code().value();
         throw core::MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(),
-                                             folder.string(), core::reason_of(error.code().value())));
+                                             folder.string(), core::reason_of(reason)));
     }
 }
 

@@ -41,8 +41,8 @@ struct PlannedCase {
 };
 
 /// So many cases are worth a thread of their own when all cases of a plan are looked at: one takes less than
-/// a millisecond.
-constexpr std::size_t cases_per_thread = 64;
+/// a millisecond, but on a shared file system it waits for its files.
+constexpr std::size_t cases_per_thread = 8;
 
 /// One packing of one case: the unit that runs on its own anywhere.
 struct PackingId {
