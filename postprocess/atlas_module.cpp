@@ -1,4 +1,4 @@
-// The atlas for columns of numbers, without words of its own: vibrotrough_theory.py is what people import.
+// The atlas for columns of numbers, without words of its own: vibrotrough/theory.py is what people import.
 
 #include "atlas_module.hpp"
 

@@ -23,7 +23,7 @@ class BuildWithCMake(build_ext):  # type: ignore[misc]
         build = Path(self.build_temp).resolve()
         subprocess.run(["cmake", "-S", SOURCE, "-B", build, f"-DPython_EXECUTABLE={sys.executable}", f"-DPYTHON_EXECUTABLE={sys.executable}",
                         f"-DCMAKE_LIBRARY_OUTPUT_DIRECTORY={target}"], check=True)  # fmt: skip
-        subprocess.run(["cmake", "--build", build, "--parallel", "2", "--target", ext.name], check=True)
+        subprocess.run(["cmake", "--build", build, "--parallel", "2", "--target", "_vibrotrough_theory"], check=True)
 
 
-setup(ext_modules=[Extension("_vibrotrough_theory", sources=[])], cmdclass={"build_ext": BuildWithCMake})
+setup(ext_modules=[Extension("vibrotrough._theory", sources=[])], cmdclass={"build_ext": BuildWithCMake})

@@ -1,5 +1,5 @@
 // The theory, and the atlas of atlas_module.cpp, as a module for Python, without words of its own:
-// vibrotrough_theory.py is what people import.
+// vibrotrough/theory.py is what people import.
 
 #include "atlas_module.hpp"
 #include "theory/batch.hpp"
@@ -227,7 +227,7 @@ py::dict solve_map_of(Constants const& fixed, std::tuple<std::string, double, do
     return answer;
 }
 
-PYBIND11_MODULE(_vibrotrough_theory, module) {
+PYBIND11_MODULE(_theory, module) {
     module.def("columns", &columns);
     module.def("solve", &solve_columns);
     module.def("mode", py::overload_cast<ModeCode>(&to_string));

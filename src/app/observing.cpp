@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 namespace note = core::note;
 using note::Json;
 
-constexpr char const* script = "observe.py";
+constexpr char const* script = "vibrotrough.observe";
 
 /// A function as Python lists it.
 struct Function {
@@ -197,7 +197,7 @@ std::string missing(std::string const& needs) {
 }  // namespace
 
 ObservableSource shipped_observables() {
-    fs::path const path = script_folder() / "observables.py";
+    fs::path const path = script_folder() / "vibrotrough/observables.py";
     return source_of(path, core::read_file(path, core::largest_note));
 }
 

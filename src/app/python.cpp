@@ -60,10 +60,10 @@ std::string absolute_program(std::string const& given) {
     return given.find('/') == std::string::npos ? given : fs::absolute(given).string();
 }
 
-/// Python that imports the modules and then runs the script whose path and arguments follow, as if it had
-/// been called with them. One start does both, because the imports take as long as many a script.
+/// Python that imports the modules and then runs the script whose name and arguments follow, as `python3 -m`
+/// does. One start does both, because the imports take as long as many a script.
 std::string starter(std::vector<std::string> const& modules) {
-    return fmt::format(R"(import os, sys
+    return fmt::format(R"(import os, runpy, sys
 try:
     import {}
 except Exception:
@@ -71,11 +71,8 @@ except Exception:
 del sys.argv[0]
 if sys.path[:1] == [""]:
     del sys.path[0]
-sys.path.insert(0, os.path.dirname(sys.argv[0]))
-__file__ = sys.argv[0]
-with open(__file__, "rb") as script:
-    text = script.read()
-exec(compile(text, __file__, "exec"))
+sys.path.insert(0, os.getcwd())
+runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
 )",
                        fmt::join(modules, ", "), missing_modules);
 }
@@ -89,10 +86,10 @@ fs::path script_folder() {
     // sources.
     fs::path const installed = program.parent_path().parent_path() / installed_scripts;
     for (fs::path const& folder : {installed, (program.parent_path() / source_scripts).lexically_normal()}) {
-        if (fs::exists(folder / "figures.py", failure)) return folder;
+        if (fs::exists(folder / "vibrotrough/__init__.py", failure)) return folder;
     }
     throw core::MissingError(fmt::format(
-        "the scripts that draw figures are not in {}; install Vibrotrough again", installed.string()));
+        "the Python package vibrotrough is not in {}; install Vibrotrough again", installed.string()));
 }
 
 int script_exit_code(std::string const& script, std::vector<std::string> const& arguments,
@@ -106,8 +103,7 @@ int script_exit_code(std::string const& script, std::vector<std::string> const& 
                                                     : std::vector{absolute_program(python)};
     for (std::string const& candidate : candidates) {
         // -B: no __pycache__, because the folder may be read-only, and the sources must stay clean.
-        std::vector<std::string> words{candidate, "-B", "-c", starter(modules),
-                                       (script_folder() / script).string()};
+        std::vector<std::string> words{candidate, "-B", "-c", starter(modules), script};
         words.insert(words.end(), arguments.begin(), arguments.end());
         // Python imports modules from the folder that it is started in, and matplotlib reads its settings
         // there: it is started in the scripts' own folder, because anybody may have put anything into the
@@ -145,8 +141,9 @@ void write_decision_page(nlohmann::ordered_json data, std::string const& kind, s
     core::TemporaryFolder const folder("vibrotrough-page");
     auto const path = folder.path() / "decision.json";
     core::write_file_atomically(path, data.dump());
-    run_script("decision_page.py", {path.string(), "--output", std::filesystem::absolute(file).string()},
-               python, {"numpy", "matplotlib", "jinja2"});
+    run_script("vibrotrough.report.decision",
+               {path.string(), "--output", std::filesystem::absolute(file).string()}, python,
+               {"numpy", "matplotlib", "jinja2"});
 }
 
 }  // namespace vibrotrough::app

@@ -8,9 +8,10 @@
 
 namespace vibrotrough::app {
 
-/// Runs a script of postprocess/ with the first Python that has the modules. The output of the script goes to
-/// the same places as that of this program. Python runs in script_folder(), so that no module and no settings
-/// of the user's folder are loaded: paths in `arguments` must be absolute.
+/// Runs a module of postprocess/ as a script, such as "vibrotrough.report.page", with the first Python that
+/// has the modules. The output of the script goes to the same places as that of this program. Python runs in
+/// script_folder(), so that no module and no settings of the user's folder are loaded: paths in `arguments`
+/// must be absolute.
 /// @param python   path of the Python to use; empty for /usr/bin/python3, else python3 on the PATH
 /// @param modules  names of the modules that the script imports, e.g. "matplotlib"
 /// @throws core::MissingError when there is no such Python or script, or when the script fails (it has then
@@ -23,7 +24,8 @@ void run_script(std::string const& script, std::vector<std::string> const& argum
 int script_exit_code(std::string const& script, std::vector<std::string> const& arguments,
                      std::string const& python, std::vector<std::string> const& modules);
 
-/// The folder of the scripts: beside the installed program, or in the sources that it was built from.
+/// The folder of the scripts and of the package vibrotrough: beside the installed program, or in the sources
+/// that it was built from.
 /// @throws core::MissingError when there is no such folder
 std::filesystem::path script_folder();
 
@@ -31,7 +33,7 @@ std::filesystem::path script_folder();
 void check_script(std::string const& script, int code);
 
 /// Writes the page of a decision, one HTML file that needs no network and no other file, with
-/// postprocess/decision_page.py.
+/// vibrotrough.report.decision.
 /// @param data    what learn::design_page_data() or learn::corner_plot_data() gave
 /// @param kind    "design" or "calibration"
 /// @param file    to write

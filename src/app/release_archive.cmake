@@ -24,7 +24,7 @@ if(CPACK_GENERATOR STREQUAL "DEB" AND CPACK_INSTALL_CMAKE_PROJECTS)
     # There may be no program with VTK, and no module.
     file(GLOB programs ${build}/src/app/vibrotrough ${build}/src/app/vibrotrough-with-vtk)
     add_libraries(PROGRAM ${programs})
-    file(GLOB modules ${build}/postprocess/_vibrotrough_theory*.so)
+    file(GLOB modules ${build}/postprocess/vibrotrough/_theory*.so)
     if(modules)
         add_libraries(PYTHON ${modules})
     endif()

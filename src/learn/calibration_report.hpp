@@ -23,7 +23,7 @@ std::string calibration_text(Calibration const& calibration, std::string const& 
 /// `measurements`, `best_fit`, `converged` and `verdict`.
 nlohmann::ordered_json calibration_json(Calibration const& calibration, std::string const& model);
 
-/// What postprocess/corner.py draws: the numbers of calibration_json() and at most 4000 draws.
+/// What vibrotrough.figures.corner draws: the numbers of calibration_json() and at most 4000 draws.
 nlohmann::ordered_json corner_plot_data(Calibration const& calibration, std::string const& model);
 
 }  // namespace vibrotrough::learn

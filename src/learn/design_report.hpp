@@ -22,7 +22,7 @@ std::string design_text(DesignTask const& task, RiskDesign const& design);
 /// probability by each), `active_limits`, `rules_of_thumb`, `warnings`.
 nlohmann::ordered_json design_json(DesignTask const& task, RiskDesign const& design);
 
-/// What postprocess/decision_page.py writes the page of a design from: the numbers of design_json(), the
+/// What vibrotrough.report.decision writes the page of a design from: the numbers of design_json(), the
 /// task, and quantiles of the mass flow.
 nlohmann::ordered_json design_page_data(DesignTask const& task, RiskDesign const& design);
 

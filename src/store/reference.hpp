@@ -31,7 +31,7 @@ struct OldName {
 };
 
 /// All names that were replaced since version 0.2.0: of quantities in files, and of columns of `compare`. The
-/// module postprocess/vibrotrough.py has the same table, and a test compares the two.
+/// module postprocess/vibrotrough/results.py has the same table, and a test compares the two.
 std::vector<OldName> const& old_names();
 
 /// The name that took the place of an old one; any other name as it is.

@@ -7,10 +7,10 @@ file(WRITE ${OUTPUT} "#pragma once
 
 namespace vibrotrough::view {
 
-/// postprocess/view_case.py
+/// postprocess/vibrotrough/paraview/view_case.py
 inline constexpr std::string_view scene_template = R\"scene(${scene})scene\";
 
-/// postprocess/view.sh
+/// postprocess/vibrotrough/paraview/view.sh
 inline constexpr std::string_view scene_starter = R\"scene(${starter})scene\";
 
 }  // namespace vibrotrough::view

@@ -105,13 +105,12 @@ class Contacts(EndToEndTest):
         """Of the first frame, at rest: the integral of the density is the mass of the grains, and the stress at z is the weight above z, the
         lowest that of the layer."""
         sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "postprocess"))
-        import vibrotrough_fields
-        from vibrotrough_campaign import Case
+        from vibrotrough import Case, fields
 
         packing = Case(case).packing(1)
         frame = packing.frames[0]
-        grid = vibrotrough_fields.grid_of(frame, DIAMETER, frame.heights.max() + DIAMETER)
-        found = vibrotrough_fields.moment(frame, packing.contacts[0], grid, {1: DENSITY}, np.zeros(3))
+        grid = fields.grid_of(frame, DIAMETER, frame.heights.max() + DIAMETER)
+        found = fields.moment(frame, packing.contacts[0], grid, {1: DENSITY}, np.zeros(3))
         density, stress = found["density"].mean(axis=1), found["contact_stress"].mean(axis=1)[:, 2, 2]
         mass = DENSITY * frame.volumes.sum() / frame.floor_area
         # The sum over the grid is off by less than 6e-4 (tests/postprocess/check_fields.py).

@@ -120,8 +120,7 @@ class Observe(EndToEndTest):
         self.run_campaign(campaign, wanted=None)
         (path,) = self.results()
         sys.path.insert(0, str(Path(__file__).parent.parent.parent / "postprocess"))
-        import observables
-        from vibrotrough_campaign import Case
+        from vibrotrough import Case, observables
 
         found = observables.segregation_index(Case(path.parent).packing(1))
         with h5py.File(path) as file:

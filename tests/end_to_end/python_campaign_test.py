@@ -42,7 +42,7 @@ class PythonCampaign(EndToEndTest):
         self.assertEqual([case.folder.name for case in again.cases()], list(table.index))
         case = campaign.case(table.index[0])
         self.assertEqual([packing.number for packing in case.packings()], [1, 2])
-        self.assertEqual(len(case.result["packings/efficiency"]), 2)
+        self.assertEqual(len(case["packings/efficiency"]), 2)
         phases = case.phases(1)
         self.assertEqual(len(phases["velocity_x"]), 100)
         self.assertEqual(phases["velocity_x"].units, "m/s")

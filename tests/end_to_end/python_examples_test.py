@@ -61,8 +61,8 @@ class PythonExamples(EndToEndTest):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def run_code(self, code, what):
-        path = os.pathsep.join([str(POSTPROCESS), THEORY])
-        environment = os.environ | {"PYTHONPATH": path, "MPLBACKEND": "Agg", "PATH": f"{Path(PROGRAM).parent}{os.pathsep}{os.environ['PATH']}"}
+        code = f"import vibrotrough; vibrotrough.__path__.insert(0, {THEORY!r})\n{code}"
+        environment = os.environ | {"PYTHONPATH": str(POSTPROCESS), "MPLBACKEND": "Agg", "PATH": f"{Path(PROGRAM).parent}{os.pathsep}{os.environ['PATH']}"}
         done = subprocess.run([sys.executable, "-B", "-W", "error", "-c", code], cwd=self.folder, env=environment, capture_output=True, text=True,
                               timeout=PATIENCE)  # fmt: skip
         self.assertEqual(done.returncode, 0, f"{what}:\n{code}\n{done.stderr}")
@@ -70,20 +70,20 @@ class PythonExamples(EndToEndTest):
         return done.stdout
 
     def docstring(self, module):
-        return ast.get_docstring(ast.parse((POSTPROCESS / f"{module}.py").read_text(encoding="utf-8")))
+        return ast.get_docstring(ast.parse((POSTPROCESS / f"vibrotrough/{module}.py").read_text(encoding="utf-8")))
 
     def test_of_the_docstrings(self):
         self.simulate()
-        for module, least in (("vibrotrough", 1), ("vibrotrough_campaign", 1), ("vibrotrough_fields", 1), ("vibrotrough_frames", 1), ("vibrotrough_theory", 1)):
-            if module == "vibrotrough_theory" and not THEORY:
+        for module, least in (("__init__", 1), ("campaign", 1), ("field_files", 1), ("fields", 1), ("frames", 1), ("theory", 1)):
+            if module == "theory" and not THEORY:
                 continue
             examples = [block for block in blocks(self.docstring(module)) if is_python(block)]
             self.assertGreaterEqual(len(examples), least, module)
             code = "\n".join(examples)
-            if module == "vibrotrough" and not THEORY:
+            if module == "__init__" and not THEORY:
                 code = "\n".join(line for line in code.splitlines() if "vibrotrough.theory" not in line)
             with self.subTest(module=module):
-                if module == "vibrotrough_frames":
+                if module == "frames":
                     code += "\ncycle = case.packing(1).cycles('frames')[0]\nprint(height_of_the_layer(cycle), velocity_profile(cycle))\n"
                 self.run_code(code, module)
 

@@ -38,9 +38,7 @@ class Tutorial(EndToEndTest):
         super().setUp()
         # The Python module takes the program on the PATH where it does not lie in a checkout.
         modules = self.folder / "modules"
-        modules.mkdir()
-        for script in (SOURCES / "postprocess").glob("vibrotrough*.py"):
-            shutil.copy(script, modules)
+        shutil.copytree(SOURCES / "postprocess/vibrotrough", modules / "vibrotrough")
         # The program under the name that a person types.
         programs = self.folder / "programs"
         programs.mkdir()

@@ -40,10 +40,10 @@ def make_table(columns, folder, name):
 def drawn_by(scripts, outputs, *asked):
     """The figure that would be saved."""
     sys.path.insert(0, str(scripts))
-    import figure_columns
+    from vibrotrough.figures import columns
     kept = []
-    figure_columns.save = lambda figure, path: kept.append((figure, path)) or []
-    figure_columns.plot_columns(outputs, outputs[0], *asked)
+    columns.save = lambda figure, path: kept.append((figure, path)) or []
+    columns.plot_columns(outputs, outputs[0], *asked)
     return kept[0]
 
 
@@ -101,8 +101,8 @@ def check_mistakes(scripts, outputs):
     for asked, said in {("nonsense", "efficiency"): "no campaign has a column nonsense",
                         ("layer.height", "mass_flow_t_per_h"): "how wide the trough is (trough.width); draw mass_flow_per_width"}.items():  # fmt: skip
         x, y = asked
-        done = subprocess.run(["/usr/bin/python3", "-B", scripts / "figures.py", outputs[0], "--output", outputs[0], "--x", x, "--y", y],
-                              capture_output=True, text=True)
+        done = subprocess.run(["/usr/bin/python3", "-B", "-m", "vibrotrough.figures.draw", outputs[0], "--output", outputs[0], "--x", x, "--y", y],
+                              cwd=scripts, capture_output=True, text=True)
         assert done.returncode == 2 and said in done.stderr and done.stderr.count("\n") == 1, done.stderr
 
 

@@ -150,13 +150,13 @@ def main(scripts, work):
                            (calibration(), ["0.45", "0.39 to 0.51 (95 %)", "R-hat up to 1.002", "0.0601 \u00b1 0.003"])):
         path = work / f"{data['kind']}{'_untested' if data.get('untested') else ''}.html"
         (work / "data.json").write_text(json.dumps(data), encoding="utf-8")
-        done = subprocess.run([sys.executable, "-B", pathlib.Path(scripts) / "decision_page.py", work / "data.json", "--output", path],
-                              capture_output=True, text=True)
+        done = subprocess.run([sys.executable, "-B", "-m", "vibrotrough.report.decision", work / "data.json", "--output", path],
+                              cwd=scripts, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         check_words(path.read_text(encoding="utf-8"), expected)
         pages[path.stem] = path
-    failed = subprocess.run([sys.executable, "-B", pathlib.Path(scripts) / "decision_page.py", work / "data.json", "--output",
-                             work / "missing" / "x.html"], capture_output=True, text=True)
+    failed = subprocess.run([sys.executable, "-B", "-m", "vibrotrough.report.decision", work / "data.json", "--output",
+                             work / "missing" / "x.html"], cwd=scripts, capture_output=True, text=True)
     assert failed.returncode == 1 and failed.stderr.count("\n") == 1 and "--page" in failed.stderr, failed.stderr
     browser = shutil.which("chromium")
     if not browser:

@@ -16,11 +16,11 @@ import sys
 import numpy as np
 
 sys.path.insert(0, sys.argv[1])
-import observables  # noqa: E402
-import vibrotrough_field_files as files  # noqa: E402
-import vibrotrough_fields as cg  # noqa: E402
+from vibrotrough import field_files as files  # noqa: E402
+from vibrotrough import fields as cg  # noqa: E402
+from vibrotrough import observables  # noqa: E402
+from vibrotrough.frames import Contacts, Frame  # noqa: E402
 from check_observables import DIAMETER, LENGTH, PERIOD, STEPS, WIDTH, Maker, contact_row, some_places, write_contacts  # noqa: E402
-from vibrotrough_frames import Contacts, Frame  # noqa: E402
 
 GRAVITY, DENSITY, QUADRATURE = 9.81, 1400.0, 6e-4
 BOX = np.array([[0, LENGTH], [0, WIDTH], [-0.01, 0.3]])
@@ -290,9 +290,8 @@ def check_refusals(folder):
             assert reason in str(error), error
         else:
             raise AssertionError(f"was measured, without {reason}")
-    script = pathlib.Path(sys.argv[1]) / "vibrotrough_field_files.py"
     for arguments, reason in (([folder / "nothing", folder], "nothing"), ([folder, folder, "--width", "-1"], "--width is a length above 0")):
-        done = subprocess.run([sys.executable, "-B", script, *arguments], capture_output=True, text=True)
+        done = subprocess.run([sys.executable, "-B", "-m", "vibrotrough.field_files", *arguments], cwd=sys.argv[1], capture_output=True, text=True)
         assert done.returncode == 2 and reason in done.stderr and "Traceback" not in done.stderr, done
 
 
@@ -318,7 +317,7 @@ def check_half_frequency(folder):
             continue
         assert np.allclose(found[5:], amplitude, rtol=1e-9), (name, found)
         assert np.allclose(observables.half_frequency_wavelength(made.open())[5:], LENGTH / number, rtol=1e-12)
-        from figure_fields import spectrum_of
+        from vibrotrough.figures.fields import spectrum_of
 
         wave_numbers, frequencies, amplitudes = spectrum_of(made.open())
         row, column = np.unravel_index(amplitudes.argmax(), amplitudes.shape)
@@ -328,13 +327,13 @@ def check_half_frequency(folder):
 
 def check_figures(folder):
     """Both figures are in the list, and their drawing functions are there."""
-    import figure_fields
+    from vibrotrough.figures import fields
 
-    kinds = {row["kind"]: row for row in json.loads((pathlib.Path(sys.argv[1]) / "figure_kinds.json").read_text())}
+    kinds = {row["kind"]: row for row in json.loads((pathlib.Path(sys.argv[1]) / "vibrotrough/figures/kinds.json").read_text())}
     for kind in ("fields", "waves"):
-        assert kinds[kind]["module"] == "figure_fields" and callable(getattr(figure_fields, f"plot_{kind}"))
+        assert kinds[kind]["module"] == "fields" and callable(getattr(fields, f"plot_{kind}"))
     # A layer of 12 mm at 15 Hz: f* = 15 sqrt(0.012 / 9.81) = 0.525, so that lambda / H = 1 + 1.1 x 2.34 = 3.58.
-    assert math.isclose(figure_fields.published_wavelength(15, 0.012), 0.012 * 3.576, rel_tol=1e-3)
+    assert math.isclose(fields.published_wavelength(15, 0.012), 0.012 * 3.576, rel_tol=1e-3)
 
 
 def main():

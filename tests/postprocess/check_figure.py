@@ -33,8 +33,8 @@ def lines_in(svg, colour):
 
 def main(scripts, campaign, work):
     sys.path.insert(0, scripts)
-    from figure_efficiency import draw_efficiency
-    from figure_style import Problem
+    from vibrotrough.figures.efficiency import draw_efficiency
+    from vibrotrough.figures.style import Problem
 
     campaign, work = pathlib.Path(campaign), pathlib.Path(work)
     (work / "theory.csv").write_text(THEORY, encoding="utf-8")

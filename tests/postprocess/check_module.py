@@ -1,4 +1,4 @@
-"""Opens the sample's campaign.h5 and result.h5 with postprocess/vibrotrough.py and holds it to h5py itself.
+"""Opens the sample's campaign.h5 and result.h5 with the package vibrotrough and holds it to h5py itself.
 
 usage: check_module.py SCRIPTS SAMPLE WORK VIBROTROUGH
 """
@@ -28,7 +28,7 @@ def check_old_names(vibrotrough, campaign, folder, program):
     """A file of version 0.2.0 has today's names, scripts of that version find today's values, and program and module know the
     same old names."""
     printed = json.loads(subprocess.run([program, "quantities", "--json"], capture_output=True, check=True).stdout)
-    assert vibrotrough.OLD_NAMES == printed["old_names"]
+    assert vibrotrough.results.OLD_NAMES == printed["old_names"]
     files = {row["name"].rpartition("/")[2] for file in ("result.h5", "campaign.h5") for row in printed[file]}
     columns = {column["name"] for column in printed["columns"]}
     assert set(printed["old_names"].values()) <= files | columns, "an old name leads to a name that there is"
@@ -108,7 +108,7 @@ def main(scripts, sample, work, program):
     check_old_names(vibrotrough, campaign, folder, program)
 
     # Every dataset of every kind of file tells its units, and one that does not is refused.
-    for file in (campaign, case):
+    for file in (campaign, case.result):
         with h5py.File(file.path) as read:
             for name in file:
                 table, _, field = name.rpartition("/")
@@ -116,7 +116,7 @@ def main(scripts, sample, work, program):
                     wanted = read[name].attrs["units"]
                 else:
                     wanted = read[table].attrs["units"][read[table].dtype.names.index(field)]
-                assert file[name].units == vibrotrough.text(wanted) != "", name
+                assert file[name].units == vibrotrough.results.text(wanted) != "", name
     for kind in ("map", "table"):
         with h5py.File(folder / f"{kind}.h5", "w") as file:
             file.attrs["format"] = f"vibrotrough theory {kind}"
@@ -137,7 +137,7 @@ def main(scripts, sample, work, program):
     raises(KeyError, lambda: campaign["eta"], "has no 'eta'", "efficiency")
     raises(ValueError, lambda: vibrotrough.open_campaign(folder / "cases/0123456789abcdef/result.h5"), "vibrotrough result")
     raises(OSError, lambda: vibrotrough.open_campaign(folder / "none.h5"))
-    raises(OSError, lambda: campaign.case("none"))
+    raises(KeyError, lambda: campaign.case("none"), "has no case none")
 
 
 if __name__ == "__main__":

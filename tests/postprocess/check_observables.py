@@ -14,8 +14,8 @@ import sys
 import numpy as np
 
 sys.path.insert(0, sys.argv[1])
-import observables  # noqa: E402
-from vibrotrough_frames import Packing  # noqa: E402
+from vibrotrough import observables  # noqa: E402
+from vibrotrough.frames import Packing  # noqa: E402
 
 STEPS, TIME_STEP = 1000, 6.5e-5  # of a cycle; s
 PERIOD = STEPS * TIME_STEP

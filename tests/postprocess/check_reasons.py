@@ -8,7 +8,7 @@ import re
 import sys
 
 sys.path.insert(0, sys.argv[1])
-import report_reasons  # noqa: E402
+from vibrotrough.report import reasons  # noqa: E402
 
 CASE = {"case": "a", "label": "layer.height 6 mm", "layer.height": 0.006, "outcome": "finished", "friction": 0.3, "efficiency": 0.65, "efficiency_half_width": 0.05,
         "efficiency_theory": 0.42, "efficiency_by_normal_force": 0.45, "conveying_speed_m_per_s": 0.20, "conveying_speed_half_width_m_per_s": 0.01,
@@ -18,7 +18,7 @@ CAMPAIGN = '[grains]\nrotation = "rolling"\nrolling_friction = 0.05\n'
 
 
 def told(cases, swept=SWEPT, campaign=CAMPAIGN):
-    parts = report_reasons.reasons({"cases": cases, "swept": swept, "input": campaign})
+    parts = reasons.reasons({"cases": cases, "swept": swept, "input": campaign})
     return {part["heading"].split()[0] + " " + part["heading"].split()[-1]: part["sentences"] for part in parts}
 
 
@@ -106,7 +106,7 @@ def check_the_laws_error():
     """The number is that of the stored table."""
     page = (pathlib.Path(sys.argv[2]).parent / "src/manual/validation.md").read_text(encoding="utf-8")
     rms = float(re.search(r"rolling_layer\.law_rms-->([0-9.]+)<", page)[1])
-    assert abs(report_reasons.LAW_HALF_WIDTH - 1.96 * rms) < 1e-12, rms
+    assert abs(reasons.LAW_HALF_WIDTH - 1.96 * rms) < 1e-12, rms
 
 
 for check in (check_a_difference, check_an_agreement, check_rolling, check_the_atlas, check_a_long_name, check_trends, check_changes, check_what_is_not_known, check_the_laws_error):

@@ -86,7 +86,7 @@ def make_campaign(sample, columns, work):
 
 
 def run_script(scripts, name, *arguments):
-    done = subprocess.run([sys.executable, "-B", scripts / name, *map(str, arguments)], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-B", "-m", name, *map(str, arguments)], cwd=scripts, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return [pathlib.Path(line) for line in done.stdout.splitlines()]
 
@@ -137,28 +137,28 @@ def check_page(page):
 def check_budget(scripts, folder):
     """Parts add in squares, so that the heights of the stack, squares over the total, add up to it: 3-4-5 triangle."""
     sys.path.insert(0, str(scripts))
-    import figure_budget
+    from vibrotrough.figures import budget
 
-    budgets = figure_budget.read_budgets(folder, list(CASES))
-    assert [budget["case"] for budget in budgets] == list(CASES), "a case that is no longer there is left out"
-    heights = figure_budget.shares(budgets[0])
+    budgets = budget.read_budgets(folder, list(CASES))
+    assert [one["case"] for one in budgets] == list(CASES), "a case that is no longer there is left out"
+    heights = budget.shares(budgets[0])
     assert abs(heights[0] - 0.018) < 1e-15 and abs(heights[1] - 0.032) < 1e-15 and heights[2] == 0.0, heights
     text = (folder / "report" / "budget.svg").read_text(encoding="utf-8")
     assert "Young" in text and "unknown" in text and "width of the box" not in text, "what is left out has no colour"
 
     kept = (folder / "numerics.json").read_bytes()
     (folder / "numerics.json").write_text("{", encoding="utf-8")
-    failed = subprocess.run([sys.executable, "-B", scripts / "figures.py", folder, "--only", "budget"], capture_output=True, text=True)
+    failed = subprocess.run([sys.executable, "-B", "-m", "vibrotrough.figures.draw", folder, "--only", "budget"], cwd=scripts, capture_output=True, text=True)
     assert failed.returncode == 1 and failed.stderr.count("\n") == 1 and "numerics.json" in failed.stderr, failed.stderr
     (folder / "numerics.json").unlink()
-    assert run_script(scripts, "figures.py", folder, "--only", "budget") == [], "without a study there is no figure"
+    assert run_script(scripts, "vibrotrough.figures.draw", folder, "--only", "budget") == [], "without a study there is no figure"
     (folder / "numerics.json").write_bytes(kept)
 
 
 def check_words(scripts):
     """Sentences of the conclusion, of cases that are easy to judge."""
     sys.path.insert(0, str(scripts))
-    from report_words import conclusion
+    from vibrotrough.report.words import conclusion
 
     case = {"case": "a", "label": "friction 0.2", "outcome": "finished", "efficiency": 0.5, "efficiency_half_width": 0.02,
             "efficiency_theory": 0.51, "conveying_speed_m_per_s": 0.25, "conveying_speed_half_width_m_per_s": 0.01}
@@ -211,7 +211,7 @@ def check_swept(scripts, folder, work):
                 file["swept/grains.rolling_friction"].attrs["description"] = ""
             if "same" in keys:
                 file["throw_number"][...] = 2.1
-        run_script(scripts, "figures.py", other, "--only", "efficiency", "--only", "residuals")
+        run_script(scripts, "vibrotrough.figures.draw", other, "--only", "efficiency", "--only", "residuals")
         text = (other / "report" / "efficiency.svg").read_text(encoding="utf-8")
         assert wanted in text and unwanted not in text, f"{wanted} is not in the figure, or {unwanted} is"
         assert "grain rolling friction" in (other / "report" / "residuals.svg").read_text(encoding="utf-8")
@@ -231,7 +231,7 @@ def check_models_over_the_swept_key(scripts, folder):
     for number, row in enumerate(overview["cases"]):
         row |= {key: 0.05 + 0.15 * number, "efficiency_theory": 0.5, "efficiency_rolling_layer": 0.6, "efficiency_atlas": 0.7, "efficiency_atlas_half_width": 0.08}
     data.write_text(json.dumps(overview), encoding="utf-8")
-    run_script(scripts, "figures.py", folder, "--only", "efficiency", "--only", "speed", "--only", "mass_flow")
+    run_script(scripts, "vibrotrough.figures.draw", folder, "--only", "efficiency", "--only", "speed", "--only", "mass_flow")
     for kind, title in (("efficiency", "velocity efficiency"), ("speed", "conveying speed"), ("mass_flow", "mass flow")):
         text = (folder / "report" / f"{kind}.svg").read_text(encoding="utf-8")
         for words in (title, "grain rolling friction", "solid: point-mass theory", "dashed: rolling-layer law", "dotted: atlas"):
@@ -261,13 +261,13 @@ def check_both_theories(scripts, folder, overview):
     for throw_numbers, plastic in (([2.1, 2.1], "solid: plastic theory"), ([2.1, 8.4], "lines: plastic theory")):
         with h5py.File(folder / "campaign.h5", "a") as file:
             file["throw_number"][...] = throw_numbers
-        run_script(scripts, "figures.py", folder, "--only", "efficiency")
+        run_script(scripts, "vibrotrough.figures.draw", folder, "--only", "efficiency")
         texts = re.findall(r">([^<>]*)<", (folder / "report" / "efficiency.svg").read_text(encoding="utf-8"))
         text = " ".join(" ".join(texts).split())  # a title may be wrapped
         for words in (plastic, "theory with restitution"):
             assert words in text, f"{words}: {throw_numbers}"
         assert "point-mass theory" not in text, "which of the two is said"
-    (report,) = run_script(scripts, "report.py", folder)
+    (report,) = run_script(scripts, "vibrotrough.report.page", folder)
     page = report.read_text(encoding="utf-8")
     assert "-0.100 \u00b1 0.020" in page and 'id="differences"' in page and "restitution 0.5" in page, "the table of differences"
 
@@ -277,7 +277,7 @@ def check_stroke(scripts, folder):
     import numpy as np
 
     sys.path.insert(0, str(scripts))
-    from figure_efficiency import Series
+    from vibrotrough.figures.efficiency import Series
 
     columns = {"case": np.array(["a", "b", "c"]), "throw_number": np.array([1.4, 1.6, 2.0]), "vibration_angle": np.full(3, 0.5),
                "swept/trough.stroke": np.array([0.007, 0.008, 0.010]), "swept/trough.frequency": np.array([16.0, 16.0, 17.0])}
@@ -290,12 +290,12 @@ def check_stroke(scripts, folder):
 
 def check_footers(scripts, folder):
     """The watch sees a footer that is moved up into the figure."""
-    caught = subprocess.run([sys.executable, "-B", WATCHED, "0.3", scripts / "figures.py", folder, "--only", "residuals"], capture_output=True, text=True)
+    caught = subprocess.run([sys.executable, "-B", WATCHED, "0.3", scripts, folder, "--only", "residuals"], capture_output=True, text=True)
     assert "lies over an axis" in caught.stderr, caught.stderr
 
 
 def figures_in(scripts, folder):
-    (report,) = run_script(scripts, "report.py", folder)
+    (report,) = run_script(scripts, "vibrotrough.report.page", folder)
     return re.findall(r"<figcaption>Figure \d+\. ([^<]*)<", report.read_text(encoding="utf-8"))
 
 
@@ -313,14 +313,14 @@ def check_processes(scripts, folder, drawn):
     of_cases = [path for path in drawn if path.name.startswith(("cycles-", "portraits-"))]
     assert len(of_cases) >= 2 * len(CASES), of_cases
     before = [path.read_bytes() for path in of_cases]
-    command = [sys.executable, "-B", scripts / "figures.py", folder, "--only", "cycles", "--only", "portraits"]
-    alone = subprocess.run(["taskset", "--cpu-list", str(min(os.sched_getaffinity(0))), *command], capture_output=True, text=True)
+    command = [sys.executable, "-B", "-m", "vibrotrough.figures.draw", folder, "--only", "cycles", "--only", "portraits"]
+    alone = subprocess.run(["taskset", "--cpu-list", str(min(os.sched_getaffinity(0))), *command], cwd=scripts, capture_output=True, text=True)
     assert alone.stdout.splitlines() == [str(path) for path in of_cases], alone.stderr
     assert [path.read_bytes() for path in of_cases] == before
     if len(os.sched_getaffinity(0)) < 2:
         return
-    killed = "import os, sys; sys.path.insert(0, sys.argv[1]); sys.argv[:2] = ['figures.py']; import figures; " \
-             "figures.figures_of_case = lambda *_: os.abort()\ntry: figures.main()\nexcept figures.Problem as problem: print(problem)"
+    killed = "import os, sys; sys.path.insert(0, sys.argv[1]); sys.argv[:2] = ['draw']; from vibrotrough.figures import draw; " \
+             "draw.figures_of_case = lambda *_: os.abort()\ntry: draw.main()\nexcept draw.Problem as problem: print(problem)"
     done = subprocess.run([sys.executable, "-B", "-c", killed, scripts, folder], capture_output=True, text=True)
     assert done.stdout.splitlines()[-1].startswith("a process that drew figures was ended"), done.stdout + done.stderr
 
@@ -359,7 +359,7 @@ def check_in_browser(browser, report, work):
 def main(scripts, sample, columns, work):
     scripts, sample, work = pathlib.Path(scripts), pathlib.Path(sample), pathlib.Path(work).resolve()
     folder = make_campaign(sample, json.loads(subprocess.run([columns], capture_output=True, check=True).stdout), work)
-    done = subprocess.run([sys.executable, "-B", WATCHED, "0", scripts / "figures.py", folder], capture_output=True, text=True, check=True)
+    done = subprocess.run([sys.executable, "-B", WATCHED, "0", scripts, folder], capture_output=True, text=True, check=True)
     assert "lies over an axis" not in done.stderr, done.stderr
     drawn = [pathlib.Path(line) for line in done.stdout.splitlines()]
     assert {path.name for path in drawn} >= {
@@ -375,16 +375,16 @@ def main(scripts, sample, columns, work):
     check_budget(scripts, folder)
     check_words(scripts)
     check_swept(scripts, folder, work)
-    only = run_script(scripts, "figures.py", folder, "--only", "cycles", "--case", "0123456789abcdef")
+    only = run_script(scripts, "vibrotrough.figures.draw", folder, "--only", "cycles", "--case", "0123456789abcdef")
     assert [path.name for path in only] == ["cycles-0123456789abcdef.svg", "cycles-0123456789abcdef.png"], only
-    (report,) = run_script(scripts, "report.py", folder)
+    (report,) = run_script(scripts, "vibrotrough.report.page", folder)
     check_page(report.read_text(encoding="utf-8"))
     report = shutil.copy(report, work / "report.html")  # the one with all figures
     check_that_figures_belong_to_the_data(scripts, folder)
 
     (folder / "report" / "data" / "campaign.json").write_text("{", encoding="utf-8")
-    for script in ("figures.py", "report.py"):
-        failed = subprocess.run([sys.executable, "-B", scripts / script, folder], capture_output=True, text=True)
+    for script in ("figures.draw", "report.page"):
+        failed = subprocess.run([sys.executable, "-B", "-m", f"vibrotrough.{script}", folder], cwd=scripts, capture_output=True, text=True)
         assert failed.returncode == 1 and failed.stderr.count("\n") == 1 and "campaign" in failed.stderr, failed.stderr
 
     browser = shutil.which("chromium")

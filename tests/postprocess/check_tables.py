@@ -9,10 +9,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, sys.argv[1])
-import figure_cycles  # noqa: E402
-import figure_residuals  # noqa: E402
-import figure_tables  # noqa: E402
-import figures  # noqa: E402
+from vibrotrough.figures import cycles, draw, residuals, tables  # noqa: E402
 
 
 class Source:
@@ -26,7 +23,7 @@ class Source:
 def drawn(plot, result):
     """The axes of the figure that would be saved; none when none would."""
     kept = []
-    figure_tables.save = lambda figure, path: kept.append(figure) or [path]
+    tables.save = lambda figure, path: kept.append(figure) or [path]
     plot(Source(), "abc", result, pathlib.Path("figure"))
     return kept[0].axes[0] if kept else None
 
@@ -34,7 +31,7 @@ def drawn(plot, result):
 def check_partition():
     result = {"partition/diameter": np.array([0.002, 0.004]), "partition/relative_diameter": np.array([0.5, 1]), "partition/stays": np.array([0.25, 1]), "partition/stays_low": np.array([0.2, 0.9]),
               "partition/stays_high": np.array([0.35, 1]), "partition/stays_by_model": np.array([0.5, 1]), "case/cut_size": np.array(0.003)}  # fmt: skip
-    axes = drawn(figure_tables.plot_partition, result)
+    axes = drawn(tables.plot_partition, result)
     points, _, (bars,) = axes.containers[0]
     line = axes.lines[0]
     assert list(points.get_xdata()) == [2, 4] and points.get_linestyle() == "None"
@@ -46,18 +43,18 @@ def check_partition():
 def check_screening():
     """Efficiency over the length of screen: the end of each cycle, with its interval."""
     result = {"screening/distance": np.array([0, 0.2, 0.4]), "screening/efficiency": np.array([0, 0.6, 0.8]), "screening/efficiency_half_width": np.array([0, 0.1, np.nan])}
-    axes = drawn(figure_tables.plot_screening, result)
+    axes = drawn(tables.plot_screening, result)
     assert list(axes.lines[0].get_xdata()) == [0, 0.2, 0.4] and list(axes.lines[0].get_ydata()) == [0, 0.6, 0.8]
     assert axes.get_xlabel() == "length of the screen  [m]"
     nothing = {**result, "screening/efficiency": np.full(3, np.nan)}
-    assert drawn(figure_tables.plot_screening, nothing) is None
+    assert drawn(tables.plot_screening, nothing) is None
 
 
 def check_partition_through_the_opening():
     """d50 lies on the lines between the sizes; one through the opening, of which all spheres stay: 2 mm + (0.5 - 0.2) / (1 - 0.2) * (3 mm - 2 mm)."""
     result = {"partition/diameter": np.array([0.002, 0.004]), "partition/relative_diameter": np.array([2 / 3, 4 / 3]), "partition/stays_by_model": np.array([0.4, 1]),
               "case/cut_size": np.array(0.002375), **{f"partition/{name}": np.array([0.2, 1]) for name in ("stays", "stays_low", "stays_high")}}  # fmt: skip
-    axes = drawn(figure_tables.plot_partition, result)
+    axes = drawn(tables.plot_partition, result)
     curves = {line.get_label(): line for line in axes.lines}
     measured, model, d50 = axes.lines[0], curves["one attempt in each cycle (Gaudin)"], curves["d50 2.38 mm"]
     np.testing.assert_allclose(np.interp(d50.get_xdata(), *measured.get_data()), d50.get_ydata())
@@ -65,7 +62,7 @@ def check_partition_through_the_opening():
     assert list(measured.get_ydata()) == [0.2, 1, 1] and list(model.get_ydata()) == [0.4, 1, 1]
     # Without holes all stay.
     closed = {**result, "partition/relative_diameter": np.full(2, np.inf), "case/cut_size": np.array(np.nan)}
-    assert list(drawn(figure_tables.plot_partition, closed).lines[0].get_xdata()) == [2, 4]
+    assert list(drawn(tables.plot_partition, closed).lines[0].get_xdata()) == [2, 4]
 
 
 def check_cycles_are_seen():
@@ -74,7 +71,7 @@ def check_cycles_are_seen():
               "packings/efficiency_half_width_statistics": np.array([6.0, 0.02]), "packings/verdict": ["steady", "steady"], "series/1/efficiency": np.array([0.75, 0.85, 0.8]),
               "series/2/efficiency": np.array([0.8, 0.82, 0.78])}  # fmt: skip
     kept = []
-    figure_cycles.save = lambda figure, path: kept.append(figure) or [path]
+    cycles.save = lambda figure, path: kept.append(figure) or [path]
     low, high = figure_limits(kept, result)
     assert low <= 0.75 and high >= 0.85 and high - low <= 0.25, (low, high)
     # An interval that is not much wider is seen as a whole.
@@ -89,19 +86,19 @@ def check_stages():
               "packings/efficiency_half_width_statistics": np.array([0.1]), "series/1/efficiency": np.array([0.75, 0.85, 0.8])}  # fmt: skip
     assert "mean and interval" in labels_of(result)
     assert labels_of({**result, "stages/start": np.zeros(1)}) == ["cycle"]
-    assert figure_residuals.plot_residuals(Source(), pathlib.Path("figure")) == []
+    assert residuals.plot_residuals(Source(), pathlib.Path("figure")) == []
 
 
 def labels_of(result):
     kept = []
-    figure_cycles.save = lambda figure, path: kept.append(figure) or [path]
-    figure_cycles.plot_cycles(Source(), "abc", result, pathlib.Path("figure"))
+    cycles.save = lambda figure, path: kept.append(figure) or [path]
+    cycles.plot_cycles(Source(), "abc", result, pathlib.Path("figure"))
     return kept[0].axes[0].get_legend_handles_labels()[1]
 
 
 def figure_limits(kept, result):
     kept.clear()
-    figure_cycles.plot_cycles(Source(), "abc", result, pathlib.Path("figure"))
+    cycles.plot_cycles(Source(), "abc", result, pathlib.Path("figure"))
     return kept[0].axes[0].get_ylim()
 
 
@@ -110,7 +107,7 @@ def check_segregation():
     for number, sign in ((0, 1), (1, -1)):
         result[f"segregation/index_{number}"] = sign * np.array([0, 0.1, 0.2])
         result[f"segregation/half_width_{number}"] = np.full(3, 0.05)
-    axes = drawn(figure_tables.plot_segregation, result)
+    axes = drawn(tables.plot_segregation, result)
     assert list(axes.lines[1].get_ydata()) == [0, -0.1, -0.2]
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["grains", "fines"]
 
@@ -120,7 +117,7 @@ def check_materials_along():
     result = {"materials_along/material": ["grains", "grains", "fines", "fines"], "materials_along/x": np.array([0.01, 0.03, 0.01, 0.03]),
               "materials_along/share": np.array([0.6, 1, 0.4, 0]), "materials_along/share_half_width": np.full(4, 0.1),
               "materials_along/segregation": np.array([0.5, np.nan, -0.5, np.nan]), "materials_along/segregation_half_width": np.full(4, 0.2)}  # fmt: skip
-    shares, indices = drawn(figure_tables.plot_segregation, result).get_figure().axes
+    shares, indices = drawn(tables.plot_segregation, result).get_figure().axes
     assert [list(line.get_xdata()) for line in shares.lines] == [[10, 30], [10, 30]] and list(shares.lines[1].get_ydata()) == [0.4, 0]
     assert indices.lines[1].get_ydata()[0] == -0.5 and [text.get_text() for text in shares.get_legend().get_texts()] == ["grains", "fines"]
 
@@ -134,7 +131,7 @@ def check_along():
     """Two panels over the place in millimetres, each with its band; a place without grains has no speed."""
     result = {"along_trough/x": np.array([0.01, 0.03, 0.05]), "along_trough/depth": np.array([0.012, 0.01, 0.008]), "along_trough/depth_half_width": np.array([0.001, 0.002, 0.001]),
               "along_trough/velocity": np.array([0.3, 0.4, np.nan]), "along_trough/velocity_half_width": np.array([0.05, 0.1, np.nan])}  # fmt: skip
-    depth, speed = drawn(figure_tables.plot_along, result).get_figure().axes
+    depth, speed = drawn(tables.plot_along, result).get_figure().axes
     np.testing.assert_allclose(depth.lines[0].get_data(), [[10, 30, 50], [12, 10, 8]])
     np.testing.assert_allclose(speed.lines[0].get_data(), [[10, 30, 50], [0.3, 0.4, np.nan]])
     assert {(10, 11), (10, 13), (30, 8), (30, 12), (50, 7), (50, 9)} <= band_of(depth)
@@ -146,13 +143,13 @@ def check_residence():
     """The band lies across: at each share it is as wide as the interval of the time."""
     result = {"residence_times/share": np.array([0, 0.5, 1]), "residence_times/time": np.array([1.0, 2, 4]), "residence_times/time_half_width": np.array([0.1, 0.2, 0.5]),
               "case/residence_time": np.array(2.25)}  # fmt: skip
-    axes = drawn(figure_tables.plot_residence, result)
+    axes = drawn(tables.plot_residence, result)
     np.testing.assert_allclose(axes.lines[0].get_data(), [[1, 2, 4], [0, 0.5, 1]])
     assert {(0.9, 0), (1.1, 0), (1.8, 0.5), (2.2, 0.5), (3.5, 1), (4.5, 1)} <= band_of(axes)
     assert list(axes.lines[1].get_xdata()) == [2.25, 2.25]
     # Plug flow is compared with where the mean is known; one packing has no band.
     alone = {**result, "case/residence_time": np.array(np.nan), "residence_times/time_half_width": np.full(3, np.nan)}
-    axes = drawn(figure_tables.plot_residence, alone)
+    axes = drawn(tables.plot_residence, alone)
     assert len(axes.lines) == 1 and axes.collections[0].get_paths() == []
 
 
@@ -161,7 +158,7 @@ def check_speed_over_stages():
     result = {"stage_cycles/time": np.array([0.05, 0.15, 0.25, 0.35]), "stage_cycles/conveying_speed": np.array([0.1, 0.3, 0.2, 0]),
               "stage_cycles/conveying_speed_half_width": np.array([0.05, 0.1, 0.05, 0.01]), "stages/start": np.array([0, 0.2]), "stages/time": np.array([0.2, 0.2]),
               "stages/standstill": np.array([0.0, 1]), "stages/conveying_speed": np.array([0.3, 0]), "stages/conveying_speed_half_width": np.array([0.1, 0.01])}  # fmt: skip
-    axes = drawn(figure_tables.plot_stages, result)
+    axes = drawn(tables.plot_stages, result)
     np.testing.assert_allclose(axes.lines[0].get_data(), [[0.05, 0.15, 0.25, 0.35], [0.1, 0.3, 0.2, 0]])
     assert {(0.05, 0.05), (0.05, 0.15), (0.15, 0.2), (0.15, 0.4)} <= band_of(axes)
     points, _, (bars,) = axes.containers[0]
@@ -182,8 +179,8 @@ check_materials_along()
 check_along()
 check_residence()
 check_speed_over_stages()
-for plot in (figure_tables.plot_screening, figure_tables.plot_partition, figure_tables.plot_segregation, figure_tables.plot_along, figure_tables.plot_residence, figure_tables.plot_stages):
+for plot in (tables.plot_screening, tables.plot_partition, tables.plot_segregation, tables.plot_along, tables.plot_residence, tables.plot_stages):
     assert drawn(plot, {}) is None
 # Each kind has a drawing function.
-for kind in figures.KINDS:
-    assert callable(figures.drawer(kind))
+for kind in draw.KINDS:
+    assert callable(draw.drawer(kind))

@@ -1,6 +1,6 @@
 """Holds vibrotrough.theory to the program: the same numbers to the last bit, as fast, and its examples run; and its atlas to `predict`.
 
-check_theory.py PROGRAM FOLDER [MODULES ...]: modules are found in the folders MODULES, else where Python finds them.
+check_theory.py PROGRAM FOLDER [MODULES COMPILED]: the package is found in the folder MODULES, else where Python finds it, its compiled part in COMPILED.
 """
 
 import contextlib
@@ -19,7 +19,10 @@ import h5py
 import numpy as np
 
 PROGRAM, FOLDER = sys.argv[1], Path(sys.argv[2])
-sys.path[:0] = sys.argv[3:]
+sys.path[:0] = sys.argv[3:4]
+import vibrotrough  # noqa: E402
+
+vibrotrough.__path__[:0] = sys.argv[4:]
 from vibrotrough import theory  # noqa: E402
 
 COUNT = 10000

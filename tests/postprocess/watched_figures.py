@@ -1,9 +1,8 @@
-"""Draws as figures.py does, and refuses figures in which the footer (campaign and program, in a corner) lies over an axis.
+"""Draws as vibrotrough.figures.draw does, and refuses figures in which the footer (campaign and program, in a corner) lies over an axis.
 
-usage: watched_figures.py HIGHER FIGURES.PY ARGUMENT...     HIGHER: how far footers are moved up, to see whether the watch sees them
+usage: watched_figures.py HIGHER POSTPROCESS ARGUMENT...     HIGHER: how far footers are moved up, to see whether the watch sees them
 """
 
-import pathlib
 import runpy
 import sys
 
@@ -31,5 +30,5 @@ def watched(figure, *words, **options):
 
 Figure.savefig = watched
 sys.argv = sys.argv[2:]
-sys.path.insert(0, str(pathlib.Path(sys.argv[0]).parent))
-runpy.run_path(sys.argv[0], run_name="__main__")
+sys.path.insert(0, sys.argv[0])
+runpy.run_module("vibrotrough.figures.draw", run_name="__main__", alter_sys=True)

@@ -16,7 +16,7 @@ import scipy.stats  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 
 import design  # noqa: E402
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 from campaign_program import campaign_text, run_campaign, toml_value  # noqa: E402
 from validation_case import ValidationCase, read_table  # noqa: E402
 
@@ -308,16 +308,16 @@ def judge_deep_layers(run: ValidationCase) -> dict[str, object]:
 def draw(run: ValidationCase) -> None:
     rows = run.table("predicted.csv")
     number = {key: np.array([float(row[key]) for row in rows]) for key in ("efficiency", "half_width", "atlas", "atlas_half_width", "theory")}
-    figure, axes = figure_style.new_figure(layout="constrained")
-    axes.plot([-0.2, 1.2], [-0.2, 1.2], color=figure_style.GREY, linewidth=0.8)
-    axes.plot(number["theory"], number["efficiency"], "o", mfc="none", color=figure_style.GREY, label="point mass")
-    for (region, (key, low, high)), colour in zip(list(REGIONS.items())[:4], figure_style.COLOURS, strict=False):
+    figure, axes = style.new_figure(layout="constrained")
+    axes.plot([-0.2, 1.2], [-0.2, 1.2], color=style.GREY, linewidth=0.8)
+    axes.plot(number["theory"], number["efficiency"], "o", mfc="none", color=style.GREY, label="point mass")
+    for (region, (key, low, high)), colour in zip(list(REGIONS.items())[:4], style.COLOURS, strict=False):
         here = np.array([low < float(row[key]) <= high for row in rows])
         part = {name: values[here] for name, values in number.items()}
         axes.errorbar(part["atlas"], part["efficiency"], part["half_width"], part["atlas_half_width"], fmt="o", markersize=4, linewidth=0.8, color=colour, label=f"atlas, {region}")
     axes.set(xlabel="velocity efficiency, predicted", ylabel="velocity efficiency, simulated")
     axes.legend(fontsize=8)
-    figure_style.plain_axes(axes)
+    style.plain_axes(axes)
     figure.savefig(run.figure("atlas.png"), dpi=110)
 
 

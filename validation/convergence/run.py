@@ -11,7 +11,7 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 import vibrotrough  # noqa: E402
 from campaign_program import Row  # noqa: E402
-from figure_style import plt  # noqa: E402
+from vibrotrough.figures.style import plt  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 # What is varied, the values, the default among them, and the value that stands for the limit.

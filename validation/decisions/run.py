@@ -11,7 +11,7 @@ import costs  # noqa: E402
 import numpy as np  # noqa: E402
 
 from campaign_program import Row, campaign_text, run_campaign  # noqa: E402
-from figure_style import COLOURS, MARKERS, plain_axes, plt  # noqa: E402
+from vibrotrough.figures.style import COLOURS, MARKERS, plain_axes, plt  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 SETS = 100  # synthetic data sets of each kind

@@ -15,7 +15,7 @@ import extrapolation  # noqa: E402
 import pairs  # noqa: E402
 from campaign_program import Row, campaign_text  # noqa: E402
 from criterion import CANDIDATES, CONTROL, inputs, judges, on_grid, power_law, wave_number  # noqa: E402
-from figure_style import COLOURS, plt  # noqa: E402
+from vibrotrough.figures.style import COLOURS, plt  # noqa: E402
 from layers import MODULI_MPA  # noqa: E402
 from simulate import boxes_and_steps, grid, judging_layers  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402

@@ -12,7 +12,7 @@ import numpy as np  # noqa: E402
 
 from campaign_program import campaign_text  # noqa: E402
 import engine_deck  # noqa: E402
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 Answer = tuple[dict[str, engine_deck.Floats], float, float]  # phases, normal weight (N), time step (s)
@@ -57,14 +57,14 @@ def judge_packing(run: ValidationCase, folder: pathlib.Path, slope: float, gravi
 
 
 def draw(run: ValidationCase, answers: list[Answer]) -> None:
-    figure, panels = figure_style.new_figure(2, 1, size=(8, 5.6), layout="constrained", sharex=True)
+    figure, panels = style.new_figure(2, 1, size=(8, 5.6), layout="constrained", sharex=True)
     for slope, axes, (phases, normal, time_step) in zip(SLOPES, panels, answers):
         time = phases["step"] * time_step
-        axes.plot(time, -phases["floor_z"] / normal, lw=0.8, color=figure_style.COLOURS[0], label="force on the floor, means of 1/100 cycle")
-        axes.axhline(-phases["floor_z"].mean() / normal, color=figure_style.COLOURS[1], label="mean")
+        axes.plot(time, -phases["floor_z"] / normal, lw=0.8, color=style.COLOURS[0], label="force on the floor, means of 1/100 cycle")
+        axes.axhline(-phases["floor_z"].mean() / normal, color=style.COLOURS[1], label="mean")
         axes.axhline(1, color="k", ls="--", lw=1, label="weight")
         axes.set(ylabel="force / (m g cos \u03b1)  [-]", title=f"tan \u03b1 = {slope:g}, throw number 2")
-        figure_style.plain_axes(axes)
+        style.plain_axes(axes)
     panels[0].legend(fontsize=8, loc="upper right")
     panels[1].set_xlabel("time [s]")
     figure.savefig(run.figure("column.png"), dpi=100)

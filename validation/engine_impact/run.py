@@ -10,7 +10,7 @@ import numpy as np  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 
 import engine_deck  # noqa: E402
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 import law  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
@@ -136,9 +136,9 @@ def judge_law(run: ValidationCase) -> None:
 
 
 def draw(run: ValidationCase, columns: Columns, times: Floats, cases: list[Impact], last: Columns) -> None:
-    figure, (left, right) = figure_style.new_figure(1, 2, size=(11.5, 4.6), layout="constrained")
+    figure, (left, right) = style.new_figure(1, 2, size=(11.5, 4.6), layout="constrained")
     for kind, nominal in enumerate(NOMINAL[:4]):
-        left.plot(times, (columns["z"][:, kind] - law.RADIUS) * 1e3, color=figure_style.COLOURS[kind], ls=figure_style.DASHES[kind],
+        left.plot(times, (columns["z"][:, kind] - law.RADIUS) * 1e3, color=style.COLOURS[kind], ls=style.DASHES[kind],
                   label=f"nominal e = {nominal}")
         apex, speed = DROP, (2 * law.GRAVITY * DROP) ** 0.5
         time = speed / law.GRAVITY
@@ -156,16 +156,16 @@ def draw(run: ValidationCase, columns: Columns, times: Floats, cases: list[Impac
     for i, nominal in enumerate(OBLIQUE):
         vz, vx, _ = law.impact(nominal, FRICTION, NORMAL, fine * NORMAL)
         scale = FRICTION * (1 + vz.mean() / NORMAL)
-        right.plot(fine / scale, vx / (fine * NORMAL), color=figure_style.COLOURS[i], label=f"law, nominal e = {nominal}")
+        right.plot(fine / scale, vx / (fine * NORMAL), color=style.COLOURS[i], label=f"law, nominal e = {nominal}")
         these = e == nominal
-        right.plot(angle[these] / scale, last["vx"][1:][these] / (angle[these] * NORMAL), figure_style.MARKERS[i], color=figure_style.COLOURS[i],
+        right.plot(angle[these] / scale, last["vx"][1:][these] / (angle[these] * NORMAL), style.MARKERS[i], color=style.COLOURS[i],
                    fillstyle="none", label=f"engine, nominal e = {nominal}")
     rigid = np.linspace(0.01, 15, 400)
     right.plot(rigid, np.maximum(1 - 1 / rigid, 5 / 7), "k--", lw=1, label="rigid sphere: slides, or rolls (5/7)")
     right.set(xlabel="tangential speed before / (\u03bc (1 + e) normal speed)  [-]", ylabel="tangential speed after / before  [-]", xlim=(0, 15))
     for axes in (left, right):
         axes.legend(fontsize=8)
-        figure_style.plain_axes(axes)
+        style.plain_axes(axes)
     figure.savefig(run.figure("impacts.png"), dpi=110)
 
 

@@ -10,7 +10,7 @@ import numpy as np  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 
 import engine_deck  # noqa: E402
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 Floats = NDArray[np.float64]
@@ -92,21 +92,21 @@ def judge_rest(run: ValidationCase, columns: dict[str, Floats]) -> None:
 
 
 def draw(run: ValidationCase, blocked: Floats, free: Floats, spin: Floats) -> None:
-    figure, axes = figure_style.new_figure(size=(7.2, 4.6), layout="constrained")
+    figure, axes = style.new_figure(size=(7.2, 4.6), layout="constrained")
     unit = GRAVITY * math.sin(ANGLE)
     fine = np.linspace(0, 0.52, 500)
     for rotates, measured, name, colour in ((False, blocked, "without rotation", 0), (True, free, "free", 1)):
-        style = {"color": figure_style.COLOURS[colour]}
-        axes.plot(fine, [expected(mu, ANGLE, rotates) / unit for mu in fine], figure_style.DASHES[colour], label=f"{name}, mechanics", **style)
-        axes.plot(FRICTIONS, measured / unit, figure_style.MARKERS[colour], fillstyle="none", label=f"{name}, engine", **style)
-    axes.plot(fine, np.minimum(2.5 * fine / math.tan(ANGLE), 5 / 7), ":", color=figure_style.COLOURS[2], label="spin x R, mechanics")
-    axes.plot(FRICTIONS, spin * RADIUS / unit, "^", fillstyle="none", color=figure_style.COLOURS[2], label="spin x R, engine")
+        look = {"color": style.COLOURS[colour]}
+        axes.plot(fine, [expected(mu, ANGLE, rotates) / unit for mu in fine], style.DASHES[colour], label=f"{name}, mechanics", **look)
+        axes.plot(FRICTIONS, measured / unit, style.MARKERS[colour], fillstyle="none", label=f"{name}, engine", **look)
+    axes.plot(fine, np.minimum(2.5 * fine / math.tan(ANGLE), 5 / 7), ":", color=style.COLOURS[2], label="spin x R, mechanics")
+    axes.plot(FRICTIONS, spin * RADIUS / unit, "^", fillstyle="none", color=style.COLOURS[2], label="spin x R, engine")
     for friction, name in ((2 / 7 * math.tan(ANGLE), "2/7 tan \u03b1"), (math.tan(ANGLE), "tan \u03b1")):
-        axes.axvline(friction, color=figure_style.GREY, lw=0.8)
-        axes.text(friction, 1.02, name, ha="center", fontsize=8, color=figure_style.GREY)
+        axes.axvline(friction, color=style.GREY, lw=0.8)
+        axes.text(friction, 1.02, name, ha="center", fontsize=8, color=style.GREY)
     axes.set(xlabel="friction \u03bc  [-]", ylabel="acceleration / (g sin \u03b1)  [-]", ylim=(-0.05, 1.08))
     axes.legend(fontsize=8, loc=(0.69, 0.2))
-    figure_style.plain_axes(axes)
+    style.plain_axes(axes)
     figure.savefig(run.figure("incline.png"), dpi=110)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray  # noqa: E402
 
 from campaign_program import campaign_text  # noqa: E402
 import engine_deck  # noqa: E402
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 from campaign_program import Row  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
@@ -106,17 +106,17 @@ def judge_blocked(run: ValidationCase, answer: dict[str, Any]) -> None:
 
 
 def draw(run: ValidationCase, answers: dict[str, dict[str, Any]]) -> None:
-    figure, axes = figure_style.new_figure(size=(7.2, 4.6), layout="constrained")
+    figure, axes = style.new_figure(size=(7.2, 4.6), layout="constrained")
     fine = np.linspace(0.01, 7, 300)
     for i, (rotation, a) in enumerate(answers.items()):
-        style = {"color": figure_style.COLOURS[i]}
-        axes.plot(a["height"] / a["width"], a["ratio"], figure_style.MARKERS[i], fillstyle="none", label=f"engine, rotation {rotation}", **style)
-        axes.plot(fine, saturating(fine * a["width"] / a["length"]), figure_style.DASHES[i],
-                  label=f"Janssen, k = {a['k']:.2f}, friction mobilised to {a['mobilised']:.2f}", **style)
+        look = {"color": style.COLOURS[i]}
+        axes.plot(a["height"] / a["width"], a["ratio"], style.MARKERS[i], fillstyle="none", label=f"engine, rotation {rotation}", **look)
+        axes.plot(fine, saturating(fine * a["width"] / a["length"]), style.DASHES[i],
+                  label=f"Janssen, k = {a['k']:.2f}, friction mobilised to {a['mobilised']:.2f}", **look)
     axes.axhline(1, color="k", ls=":", lw=1, label="liquid")
     axes.set(xlabel="filling height / distance of the walls  [-]", ylabel="force on the floor / weight  [-]", ylim=(0, 1.05), xlim=(0, 7))
     axes.legend(fontsize=8)
-    figure_style.plain_axes(axes)
+    style.plain_axes(axes)
     figure.savefig(run.figure("janssen.png"), dpi=110)
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray  # noqa: E402
 
 import engine_deck  # noqa: E402
 import exact  # noqa: E402
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 import law  # noqa: E402
 from validation_case import ValidationCase, read_table  # noqa: E402
 
@@ -222,16 +222,16 @@ def judge_oblique(run: ValidationCase, options: str) -> dict[str, tuple[Floats, 
 
 
 def draw(run: ValidationCase, path: tuple[Floats, Floats], slip: tuple[Floats, Floats, Floats], impacts: Mapping[str, tuple[Floats, Floats, Floats]]) -> None:
-    figure, axes = figure_style.new_figure(1, 3, size=(14, 4.4), layout="constrained")
+    figure, axes = style.new_figure(1, 3, size=(14, 4.4), layout="constrained")
     times, height = path
     for i, e in enumerate([0.9, 0.8, 0.7, 0.6]):
-        axes[0].plot(times, height[:, i], color=figure_style.COLOURS[i], label=f"restitution {e}")
+        axes[0].plot(times, height[:, i], color=style.COLOURS[i], label=f"restitution {e}")
         phases = exact.bounces(FALL["drop"], math.sqrt(1e4 / FALL["mass"]), exact.damping_ratio(e), times[-1])
         axes[0].plot(times[::25], exact.heights(phases, times[::25]), "k.", ms=3, label="exact" if i == 0 else None)
     axes[0].set(xlabel="time [s]", ylabel="height above the floor [m]", title="DEM-01: fall on a soft floor")
     times, speed, spin = slip
     for i, mu in enumerate(SLIP_FRICTIONS[:5:2]):
-        k, colour = SLIP_FRICTIONS.index(mu), figure_style.COLOURS[i]
+        k, colour = SLIP_FRICTIONS.index(mu), style.COLOURS[i]
         axes[1].plot(times * 1e3, speed[:, k], color=colour, label=f"friction {mu}")
         axes[1].plot(times * 1e3, spin[:, k], "--", color=colour)
     axes[1].axhline(5 / 7, color="k", lw=0.8, ls=":")
@@ -239,13 +239,13 @@ def draw(run: ValidationCase, path: tuple[Floats, Floats], slip: tuple[Floats, F
     experiment = read_table(FOLDER / "experiment.csv")
     for i, (name, (angles, rebound, _)) in enumerate(impacts.items()):
         order = np.argsort(angles)
-        axes[2].plot(angles[order], rebound[order], color=figure_style.COLOURS[i], ls=figure_style.DASHES[i], label=f"engine, {name} contacts")
+        axes[2].plot(angles[order], rebound[order], color=style.COLOURS[i], ls=style.DASHES[i], label=f"engine, {name} contacts")
     points = np.array([(float(row["impact_angle"]), float(row["value"])) for row in experiment if row["quantity"] == "rebound_angle"])
     axes[2].plot(points[:, 0], points[:, 1], "ko", fillstyle="none", label="experiment (Kharaz et al., 2001)")
     axes[2].set(xlabel="impact angle [degrees from the normal]", ylabel="rebound angle [degrees]", title="DEM-05: oblique impact")
     for part in axes:
         part.legend(fontsize=8)
-        figure_style.plain_axes(part)
+        style.plain_axes(part)
     figure.savefig(run.figure("cases.png"), dpi=110)
 
 

@@ -10,7 +10,7 @@ import numpy as np  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 
 from campaign_program import Row  # noqa: E402
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 import vibrotrough  # noqa: E402
 
@@ -120,28 +120,28 @@ def judge_findings(run: ValidationCase, rows: list[Row], bands: Bands, amplitude
 
 
 def draw(run: ValidationCase, rows: list[Row], layers: list[Row]) -> None:
-    figure, panels = figure_style.new_figure(1, 3, size=(12, 4.2), layout="constrained", sharey=True)
+    figure, panels = style.new_figure(1, 3, size=(12, 4.2), layout="constrained", sharey=True)
     rpm = [float(row["revolutions"]) for row in rows]
     fine = run.drawn(np.linspace(1230, 1600, 20).tolist())
     for axes, (name, slope) in zip(panels, SLOPES.items()):
         table = np.array([speeds(run, n, slope, AMPLITUDE) for n in fine])
         band = np.array([in_band(values) for values in table])
-        axes.fill_between(fine, band.min(axis=1), band.max(axis=1), color=figure_style.COLOURS[0], alpha=0.15, label="theory, friction 0.2 to 0.8")
+        axes.fill_between(fine, band.min(axis=1), band.max(axis=1), color=style.COLOURS[0], alpha=0.15, label="theory, friction 0.2 to 0.8")
         for i, mu in enumerate((0.3, 0.45, 0.6)):
             line = table[:, int(np.argmin(np.abs(FRICTIONS - mu)))]
-            axes.plot(fine, line, figure_style.DASHES[i], color=figure_style.COLOURS[0], lw=1.2, label=f"\u03bc = {mu}")
+            axes.plot(fine, line, style.DASHES[i], color=style.COLOURS[0], lw=1.2, label=f"\u03bc = {mu}")
         half = np.array([in_band(speeds(run, n, slope, AMPLITUDE / 2)) for n in fine])
-        axes.fill_between(fine, half.min(axis=1), half.max(axis=1), color=figure_style.COLOURS[3], alpha=0.25, label="if 1.25 mm were the stroke")
+        axes.fill_between(fine, half.min(axis=1), half.max(axis=1), color=style.COLOURS[3], alpha=0.25, label="if 1.25 mm were the stroke")
         errors = [[(float(row["revolutions"]) - float(row["revolutions_mechanical"])) for row in rows], [0] * 3]
         axes.errorbar(rpm, [float(row["speed"]) for row in rows], yerr=[float(row["speed_error"]) for row in rows], xerr=errors, fmt="o",
-                      color=figure_style.COLOURS[1], capsize=2, label="measured")
+                      color=style.COLOURS[1], capsize=2, label="measured")
         for i, mu in enumerate(LAYER_FRICTIONS if name == "uphill" else []):
             these = [one for one in layers if float(one["friction"]) == mu]
             axes.errorbar([float(one["revolutions"]) for one in these], [float(one["speed_m_per_s"]) for one in these],
-                          yerr=[float(one["speed_half_width"]) for one in these], fmt=figure_style.MARKERS[i + 1], ls=figure_style.DASHES[i],
-                          lw=0.8, color=figure_style.COLOURS[2], fillstyle="none", capsize=2, label=f"simulated spheres, \u03bc = {mu}")
+                          yerr=[float(one["speed_half_width"]) for one in these], fmt=style.MARKERS[i + 1], ls=style.DASHES[i],
+                          lw=0.8, color=style.COLOURS[2], fillstyle="none", capsize=2, label=f"simulated spheres, \u03bc = {mu}")
         axes.set(title=f"{name} (\u03b1 = {slope:g}\u00b0)", xlabel="revolutions  [1/min]")
-        figure_style.plain_axes(axes)
+        style.plain_axes(axes)
     panels[0].set_ylabel("conveying speed  [m/s]")
     handles, labels = panels[0].get_legend_handles_labels()
     material = [label == "measured" or "spheres" in label for label in labels]

@@ -11,7 +11,7 @@ import numpy as np  # noqa: E402
 import scipy.stats  # noqa: E402
 
 import estimate  # noqa: E402
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 import layers  # noqa: E402
 import simulate  # noqa: E402
 import stored  # noqa: E402
@@ -132,7 +132,7 @@ def judge(run: ValidationCase) -> None:
 
 def draw(run: ValidationCase, evidence: list[Evidence], model: Model) -> None:
     """What each error alone changes, over its number, of layers in which only one setting differs; and the means of the model."""
-    figure, every = figure_style.plt.subplots(1, 3, figsize=(9, 3), layout="constrained")
+    figure, every = style.plt.subplots(1, 3, figsize=(9, 3), layout="constrained")
     for k, (error, axes) in enumerate(zip(ERRORS, every, strict=True)):
         rows = [
             (one.throw_number, change / size[k], error_of / size[k], one.study == "numerics")
@@ -140,15 +140,15 @@ def draw(run: ValidationCase, evidence: list[Evidence], model: Model) -> None:
             for change, error_of, size in zip(one.change, np.sqrt(np.diag(one.covariance)), one.size, strict=True)
             if size[k] != 0 and np.count_nonzero(size) == 1
         ]  # fmt: skip
-        axes.axhline(0, color=figure_style.GREY, linewidth=0.8)
-        for own, colour, label in ((True, figure_style.COLOURS[0], "this study"), (False, figure_style.COLOURS[1], "other studies")):
+        axes.axhline(0, color=style.GREY, linewidth=0.8)
+        for own, colour, label in ((True, style.COLOURS[0], "this study"), (False, style.COLOURS[1], "other studies")):
             throw, value, width = np.array([row[:3] for row in rows if row[3] == own]).reshape(-1, 3).T
             axes.errorbar(throw, value, 1.96 * width, fmt="o", markersize=4, linewidth=0.8, color=colour, label=label)
         for (name, low, high), mean in zip(estimate.MEANS, model.means, strict=True):
             if name == error:
-                axes.plot([max(low, 0.7), min(high, 3.2)], [mean, mean], color=figure_style.GREY)
+                axes.plot([max(low, 0.7), min(high, 3.2)], [mean, mean], color=style.GREY)
         axes.set(title=error, xlabel="throw number")
-        figure_style.plain_axes(axes)
+        style.plain_axes(axes)
     every[0].set_ylabel("error over its number")
     every[0].legend(fontsize=8)
     figure.savefig(run.figure("errors.png"), dpi=110)

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.axes import Axes
 
-import figure_style as style
+from vibrotrough.figures import style
 import findings
 from campaigns import SLOPES, TANGENTS
 from findings import Table, Theory

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 import engine_deck
 from engine_deck import Floats
-from observables import surface_snapshots, wave_parts
+from vibrotrough.observables import surface_snapshots, wave_parts
 
 CYCLES = 3  # until the same phase is seen again: a snapshot every 0.3 cycles
 

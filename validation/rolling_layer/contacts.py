@@ -4,7 +4,7 @@ versions do not have (measure.rolling); its figure and findings."""
 import numpy as np
 
 from draw import FRICTION, LEAST_TOUCHING, TICKS, Phases
-from figure_style import COLOURS, new_figure, plain_axes
+from vibrotrough.figures.style import COLOURS, new_figure, plain_axes
 from validation_case import Floats, ValidationCase
 
 TABLE = "contacts.csv"

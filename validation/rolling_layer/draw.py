@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 import vibrotrough
 from campaign_program import Row
-from figure_style import COLOURS, MARKERS, new_figure, plain_axes
+from vibrotrough.figures.style import COLOURS, MARKERS, new_figure, plain_axes
 from validation_case import Floats, ValidationCase
 
 PHASE_COLUMNS = ["grains", "throw_number", "phase_deg", "touching", "layer_velocity", "floor_velocity", "spin", "normal_force", "tangential_force"]

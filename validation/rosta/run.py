@@ -10,7 +10,7 @@ import numpy as np  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 
 from campaign_program import Row  # noqa: E402
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 Floats = NDArray[np.float64]
@@ -83,22 +83,22 @@ def judge_speed(run: ValidationCase, reference: Reference, plain: Floats, static
 
 
 def draw(run: ValidationCase, reference: Reference, plain: Floats, static: Floats, layers: list[Row]) -> None:
-    figure, axes = figure_style.new_figure(size=(7.2, 4.4), layout="constrained")
-    axes.plot(FRICTIONS, plain, color=figure_style.COLOURS[0], label="theory")
-    axes.plot(FRICTIONS, static, "--", color=figure_style.COLOURS[2], label=f"theory, static friction {STATIC:g} times the kinetic")
+    figure, axes = style.new_figure(size=(7.2, 4.4), layout="constrained")
+    axes.plot(FRICTIONS, plain, color=style.COLOURS[0], label="theory")
+    axes.plot(FRICTIONS, static, "--", color=style.COLOURS[2], label=f"theory, static friction {STATIC:g} times the kinetic")
     chart, error = reference["speed"]
-    axes.axhspan(chart - error, chart + error, color=figure_style.COLOURS[1], alpha=0.25, label="ROSTA's chart, with its reading error")
-    axes.axhline(0.7 * chart, color=figure_style.COLOURS[1], ls=":", label="30 % of slip")
+    axes.axhspan(chart - error, chart + error, color=style.COLOURS[1], alpha=0.25, label="ROSTA's chart, with its reading error")
+    axes.axhline(0.7 * chart, color=style.COLOURS[1], ls=":", label="30 % of slip")
     for i, rotation in enumerate(ROTATIONS):
         these = [one for one in layers if one["rotation"] == rotation]
         axes.errorbar([float(one["friction"]) for one in these], [float(one["speed_cm_per_s"]) for one in these],
-                      yerr=[float(one["speed_half_width"]) for one in these], fmt=figure_style.MARKERS[i + 1], color=figure_style.COLOURS[3 + i],
+                      yerr=[float(one["speed_half_width"]) for one in these], fmt=style.MARKERS[i + 1], color=style.COLOURS[3 + i],
                       fillstyle="none", capsize=2, label=f"simulated layer, rotation {rotation}")
     axes.axvspan(*LIKELY, color="#eeeeee", zorder=0)
-    axes.text(sum(LIKELY) / 2, 0.5, "bulk goods on steel", ha="center", fontsize=8, color=figure_style.GREY)
+    axes.text(sum(LIKELY) / 2, 0.5, "bulk goods on steel", ha="center", fontsize=8, color=style.GREY)
     axes.set(xlabel="friction \u03bc (kinetic)  [-]", ylabel="conveying speed  [cm/s]", xlim=(0, 1.2), ylim=(0, None))
     axes.legend(fontsize=8, loc="lower right", bbox_to_anchor=(1, 0.08))
-    figure_style.plain_axes(axes)
+    style.plain_axes(axes)
     figure.savefig(run.figure("rosta.png"), dpi=110)
 
 

@@ -13,7 +13,7 @@ sys.path.insert(1, str(FOLDER.parent / "engine_impact"))
 import numpy as np  # noqa: E402
 
 import deep  # noqa: E402
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 import lammps  # noqa: E402
 import law  # noqa: E402
 from campaign_program import Row  # noqa: E402
@@ -89,19 +89,19 @@ def findings(run: ValidationCase, rows: list[Row]) -> None:
 
 
 def draw(run: ValidationCase, rows: list[Row]) -> None:
-    figure, axes = figure_style.new_figure(layout="constrained")
+    figure, axes = style.new_figure(layout="constrained")
     numbers = np.linspace(1.3, 3.1, 181)
     eta = run.efficiencies(["throw_number", "tan_vibration_angle", "friction"], [(gamma, lammps.SHALLOW.tan_beta, lammps.SHALLOW.floor_friction) for gamma in numbers])
-    axes.plot(numbers, eta, color=figure_style.GREY, lw=1.2, label="point-mass theory")
+    axes.plot(numbers, eta, color=style.GREY, lw=1.2, label="point-mass theory")
     for i, rotation in enumerate(ROTATIONS):
         ours, theirs = [row for row in rows if row["rotation"] == rotation], liggghts(rotation)
         for shift, name, marker, filled, these in ((-0.012, "LIGGGHTS", "o", "full", [theirs[gamma] for gamma in NUMBERS if gamma in theirs]),
                                                    (0.012, "LAMMPS", "s", "none", ours)):
             axes.errorbar([float(row["throw_number"]) + shift for row in these], [float(row["efficiency"]) for row in these],
                           yerr=[float(row["half_width"]) for row in these], fmt=marker, fillstyle=filled, ms=5, capsize=2, lw=1,
-                          color=figure_style.COLOURS[i], label=f"{name}, rotation {rotation}")
-    axes.set(xlabel=figure_style.THROW_NUMBER, ylabel=figure_style.EFFICIENCY)
-    figure_style.plain_axes(axes)
+                          color=style.COLOURS[i], label=f"{name}, rotation {rotation}")
+    axes.set(xlabel=style.THROW_NUMBER, ylabel=style.EFFICIENCY)
+    style.plain_axes(axes)
     axes.legend(fontsize=8)
     figure.savefig(run.figure("engines.png"), dpi=110)
 

@@ -10,7 +10,7 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 import numpy as np  # noqa: E402
 
 import exact  # noqa: E402
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 SOLVER = 1e-7
@@ -98,29 +98,29 @@ def draw(run: ValidationCase, solver: Solver) -> None:
     gammas = sorted([1.001, 1.02] + [1.05 + 0.05 * i for i in range(119)] + [*exact.plateau(1), *exact.plateau(2)])
     gammas = list(run.drawn(gammas))
     points = [solver.point(gamma) for gamma in gammas]
-    figure, (left, right) = figure_style.new_figure(1, 2, size=(11, 4.4), layout="constrained")
-    left.plot(gammas, [point["flight_number"] if point["converged"] else math.nan for point in points], color=figure_style.COLOURS[0], label="solver, longest flight")
+    figure, (left, right) = style.new_figure(1, 2, size=(11, 4.4), layout="constrained")
+    left.plot(gammas, [point["flight_number"] if point["converged"] else math.nan for point in points], color=style.COLOURS[0], label="solver, longest flight")
     some = [gamma for gamma in gammas if gamma < 4.5][::3]
     for gamma in some:
         flights = exact.settled_flights(gamma, count=2, skip=100)
-        left.plot([gamma] * 2, flights, "o", color=figure_style.COLOURS[1], markersize=3.5, fillstyle="none",
+        left.plot([gamma] * 2, flights, "o", color=style.COLOURS[1], markersize=3.5, fillstyle="none",
                   label="exact landing equation" if gamma == some[0] else None)
-    right.plot(gammas, [point["velocity_efficiency"] for point in points], color=figure_style.COLOURS[0],
+    right.plot(gammas, [point["velocity_efficiency"] for point in points], color=style.COLOURS[0],
                label="solver, $\\mu$ = 0.35, $\\tan\\beta$ = 0.5")
     for n in (1, 2):
         begin, end = exact.plateau(n)
-        right.plot([begin, end], [math.pi * n / begin, math.pi * n / end], lw=5, alpha=0.5, color=figure_style.COLOURS[1],
+        right.plot([begin, end], [math.pi * n / begin, math.pi * n / end], lw=5, alpha=0.5, color=style.COLOURS[1],
                    label="exact, $\\pi n/\\Gamma$" if n == 1 else None)
         for axes in (left, right):
             axes.axvspan(begin, end, color="#dddddd", zorder=0)
         left.text((begin + end) / 2, 0.02, f"{begin:.4f}\n{end:.4f}", ha="center", va="bottom", fontsize=8,
                   transform=left.get_xaxis_transform())
     left.set_ylabel("flight number n [-]")
-    right.set_ylabel(figure_style.EFFICIENCY)
+    right.set_ylabel(style.EFFICIENCY)
     for axes in (left, right):
-        axes.set_xlabel(figure_style.THROW_NUMBER)
+        axes.set_xlabel(style.THROW_NUMBER)
         axes.legend(fontsize=8)
-        figure_style.plain_axes(axes)
+        style.plain_axes(axes)
     figure.savefig(run.figure("flights.png"), dpi=110)
 
 

@@ -9,8 +9,8 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 from matplotlib.axes import Axes  # noqa: E402
 import numpy as np  # noqa: E402
 
-import draw_theory_map  # noqa: E402
-from figure_style import plt  # noqa: E402
+from vibrotrough.figures import theory_map  # noqa: E402
+from vibrotrough.figures.style import plt  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 TOP = 3.3  # throw number of the uppermost row
@@ -21,9 +21,9 @@ def judge(run: ValidationCase, axes: Axes, mu: float, beta: float) -> None:
     path = run.output / f"mu_{mu:g}_beta_{beta}.h5"
     run.theory("map", "--x", f"tan_inclination={slope}:{run.points}", "--y", f"throw_number=0.5:{TOP}:{run.points}",
                "--friction", mu, "--vibration-angle", f"{beta} deg", "--output", path)
-    theory = draw_theory_map.TheoryMap(path)
+    theory = theory_map.TheoryMap(path)
     tan_alpha = -theory.x if run.control else theory.x  # what the axis is taken for
-    draw_theory_map.draw_iso(theory, axes)
+    theory_map.draw_iso(theory, axes)
     axes.set_title(f"$\\mu$ = {mu:g}, $\\beta$ = {beta} deg")
     rise = (theory.efficiency[:, 1:] - theory.efficiency[:, :-1]).max()
     run.check(f"mu {mu:g}, beta {beta}: largest rise of eta per step uphill", max(rise, 0), 0, 1e-8,

@@ -8,8 +8,8 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 import numpy as np  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 
-import draw_theory_map  # noqa: E402
-from draw_theory_map import TheoryMap  # noqa: E402
+from vibrotrough.figures import theory_map  # noqa: E402
+from vibrotrough.figures.theory_map import TheoryMap  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 Floats = NDArray[np.float64]
@@ -41,8 +41,8 @@ def judge(run: ValidationCase, name: str, tan_alpha: float, friction: float) -> 
     print(run.theory("map", "--x", f"throw_number=0.3:3.3:{run.points}", "--y", f"vibration_angle_deg=5:60:{run.points}",
                      "--friction", friction, "--tan-inclination", tan_alpha, "--output", path), end="")
     for kind in ("modes", "efficiency", "lines"):
-        print(draw_theory_map.draw(path, kind, run.output / f"{name}_{kind}.png"))
-    theory = draw_theory_map.TheoryMap(path)
+        print(theory_map.draw(path, kind, run.output / f"{name}_{kind}.png"))
+    theory = theory_map.TheoryMap(path)
     height = sum(abs(y1 - y0) for x0, y0, x1, y1 in theory.lines if abs(x0 - 1) < 1e-9 and abs(x1 - 1) < 1e-9)
     run.check(f"{name}: part of the angles at which flight begins at Gamma = 1", height / 55, 1, 8 / run.points,
               because="lines are located to 1e-9; where a third mode meets it the pieces of a cell are joined at their middle")

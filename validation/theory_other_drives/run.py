@@ -9,7 +9,7 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 import numpy as np  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 FRICTION, RATIO = 0.3, 0.5  # friction; acceleration of the second harmonic over that of the first
@@ -106,19 +106,19 @@ def findings(run: ValidationCase, numbers: NDArray[np.float64], level: NDArray[n
 
 
 def draw(run: ValidationCase, numbers: NDArray[np.float64], level: NDArray[np.float64], inclined: NDArray[np.float64]) -> None:
-    figure, panels = figure_style.new_figure(1, 2, size=(11, 4.2), layout="constrained")
+    figure, panels = style.new_figure(1, 2, size=(11, 4.2), layout="constrained")
     strengths = run.drawn(np.geomspace(0.2, 300, 40).tolist())
     for i, phase in enumerate((0.0, 45.0, 90.0)):
-        panels[0].semilogx(strengths, [horizontal(run, k, 2, phase) for k in strengths], figure_style.DASHES[i], color=figure_style.COLOURS[i],
+        panels[0].semilogx(strengths, [horizontal(run, k, 2, phase) for k in strengths], style.DASHES[i], color=style.COLOURS[i],
                            label=f"phase {phase:g}\u00b0")
-        panels[0].axhline(median_velocity(2, phase), color=figure_style.COLOURS[i], lw=0.6)
+        panels[0].axhline(median_velocity(2, phase), color=style.COLOURS[i], lw=0.6)
     panels[0].set(title=f"shaken horizontally, frequencies 1 : 2, \u03bc = {FRICTION}", xlabel="machine number K = \u03c9\u00b2 r / g  [-]",
                   ylabel="speed over \u03c9 r  [-]")
     for i, (values, label) in enumerate(((level, "level"), (inclined, "3\u00b0 uphill"))):
-        panels[1].plot(numbers, values, figure_style.DASHES[i], color=figure_style.COLOURS[i], label=label)
-    panels[1].set(title="circular drive, \u03bc = 0.2", xlabel=figure_style.THROW_NUMBER, ylabel="velocity efficiency \u03b7  [-]")
+        panels[1].plot(numbers, values, style.DASHES[i], color=style.COLOURS[i], label=label)
+    panels[1].set(title="circular drive, \u03bc = 0.2", xlabel=style.THROW_NUMBER, ylabel="velocity efficiency \u03b7  [-]")
     for axes in panels:
-        figure_style.plain_axes(axes)
+        style.plain_axes(axes)
         axes.legend(fontsize=8)
     figure.savefig(run.figure("drives.png"), dpi=110)
 

@@ -9,7 +9,7 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 from matplotlib.axes import Axes  # noqa: E402
 
-from figure_style import plt  # noqa: E402
+from vibrotrough.figures.style import plt  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 STEP = 0.005  # to which the end of a mode is looked for, in mu

@@ -7,7 +7,7 @@ FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 from campaign_program import Row  # noqa: E402
-import draw_theory_map  # noqa: E402
+from vibrotrough.figures import theory_map  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 
@@ -15,8 +15,8 @@ def judge_threshold(run: ValidationCase, friction: float, reading: Row) -> None:
     path = run.output / "small_angles.h5"
     run.theory("map", "--x", f"machine_number=0.3:3:{run.points}", "--y", f"vibration_angle_deg=0:10:{run.points}",
                "--friction", friction, "--output", path)
-    print(draw_theory_map.draw(path, "modes", run.output / "small_angles_modes.png"))
-    theory = draw_theory_map.TheoryMap(path)
+    print(theory_map.draw(path, "modes", run.output / "small_angles_modes.png"))
+    theory = theory_map.TheoryMap(path)
     pn = theory.modes.index("PN")
     first = min(x for x, mode in zip(theory.x, theory.mode[0]) if mode == pn)
     exact = 0.35 * math.sqrt(1 + math.pi**2 / 4)

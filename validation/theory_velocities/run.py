@@ -7,7 +7,7 @@ from typing import Any
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
-from figure_style import plt  # noqa: E402
+from vibrotrough.figures.style import plt  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 

@@ -9,7 +9,7 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 import numpy as np  # noqa: E402
 
-import figure_style  # noqa: E402
+from vibrotrough.figures import style  # noqa: E402
 import plant  # noqa: E402
 from campaign_program import campaign_text, run_campaign  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
@@ -129,11 +129,11 @@ def draw(run: ValidationCase) -> None:
     rows = [row for row in run.table("tasks.csv") if row["again_t_per_h"]]
     wanted = np.array([float(row["wanted_t_per_h"]) for row in rows])
     again, width = (np.array([float(row[key]) for row in rows]) / wanted for key in ("again_t_per_h", "again_half_width_t_per_h"))
-    figure, axes = figure_style.new_figure(layout="constrained")
-    axes.axhline(1, color=figure_style.GREY, linewidth=0.8)
-    axes.errorbar([int(row["task"]) for row in rows], again, width, fmt="o", color=figure_style.COLOURS[0])
+    figure, axes = style.new_figure(layout="constrained")
+    axes.axhline(1, color=style.GREY, linewidth=0.8)
+    axes.errorbar([int(row["task"]) for row in rows], again, width, fmt="o", color=style.COLOURS[0])
     axes.set(xlabel="task", ylabel="mass flow, simulated once more, over the one asked for")
-    figure_style.plain_axes(axes)
+    style.plain_axes(axes)
     figure.savefig(run.figure("verified_designs.png"), dpi=110)
 
 

@@ -16,7 +16,7 @@ import scipy.stats  # noqa: E402
 
 from campaign_program import Row, campaign_text  # noqa: E402
 from differences import Difference, between_boxes, between_moduli  # noqa: E402
-from figure_style import COLOURS, plt  # noqa: E402
+from vibrotrough.figures.style import COLOURS, plt  # noqa: E402
 from layers import (ACCURATE_BOX, ACCURATE_HALF_WIDTH, BOX, COARSE_BOX, COARSER, DEEPER_HALF_WIDTH, FINER, FIRST, SIMULATED,  # noqa: E402
                     Layer, deeper_layers, layers)
 from validation_case import Floats, ValidationCase  # noqa: E402

@@ -6,7 +6,7 @@ from typing import Protocol
 from matplotlib.axes import Axes
 
 import ladder
-from figure_style import plt
+from vibrotrough.figures.style import plt
 from validation_case import ValidationCase
 
 THEORY, BLOCKED, FREE = "#000000", "#0072B2", "#D55E00"  # Okabe and Ito

@@ -122,7 +122,8 @@ void print_calibration(CalibrationOptions const& options, learn::Calibration con
         core::TemporaryFolder const folder("vibrotrough-calibration");
         auto const data = folder.path() / "calibration.json";
         core::write_file_atomically(data, learn::corner_plot_data(calibration, model).dump());
-        run_script("corner.py", {data.string(), "--output", std::filesystem::absolute(options.plot).string()},
+        run_script("vibrotrough.figures.corner",
+                   {data.string(), "--output", std::filesystem::absolute(options.plot).string()},
                    options.python, {"numpy", "matplotlib"});
     }
     if (!options.posterior.empty())

@@ -14,6 +14,8 @@
 namespace vibrotrough::app {
 namespace {
 
+constexpr char const* drawing_script = "vibrotrough.figures.draw";
+
 struct PlotArguments {
     std::string folder, output, python;
     std::vector<std::string> cases, only, formats;
@@ -52,7 +54,7 @@ void check_style(std::string const& path) {
     }
 }
 
-/// What the options say of files and sizes, for figures.py.
+/// What the options say of files and sizes, for the script that draws.
 std::vector<std::string> words_for_print(PlotArguments const& options) {
     std::vector<std::string> words;
     for (std::string const& format : options.formats) words.insert(words.end(), {"--format", format});
@@ -97,8 +99,8 @@ campaign::Plan open_for_figures(std::string const& folder, PlotArguments const& 
     return plan;
 }
 
-/// The figure of any two columns, for figures.py: its options, and what the program knows of the other
-/// campaigns, which is written into their folders as for their own figures.
+/// The figure of any two columns, for the script that draws: its options, and what the program knows of the
+/// other campaigns, which is written into their folders as for their own figures.
 std::vector<std::string> words_for_columns(PlotArguments const& options, campaign::Plan const& plan) {
     bool const is_asked = !options.x.empty() || !options.y.empty();
     if (!is_asked && (!options.by.empty() || !options.unit.empty() || !options.others.empty()))
@@ -157,11 +159,11 @@ int run_plot(PlotArguments const& options) {
     for (std::string const& kind : options.only) drawing.insert(drawing.end(), {"--only", kind});
     for (std::string const& id : options.cases) drawing.insert(drawing.end(), {"--case", id});
     if (finished) {
-        int const code = script_exit_code("figures.py", drawing, options.python, modules);
+        int const code = script_exit_code(drawing_script, drawing, options.python, modules);
         if (code == wrong_input) return wrong_input;  // it has said what
-        check_script("figures.py", code);
+        check_script(drawing_script, code);
     }
-    if (options.report) run_script("report.py", arguments, options.python, modules);
+    if (options.report) run_script("vibrotrough.report.page", arguments, options.python, modules);
     return all_well;
 }
 

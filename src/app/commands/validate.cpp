@@ -54,7 +54,7 @@ error that its criteria must detect.
 Example:
   vibrotrough validate theory_table_1 theory_exact --verbose)");
     command->callback([command, options, &exit_code] {
-        exit_code = script_exit_code("validate.py", script_arguments(*options, command->remaining()),
+        exit_code = script_exit_code("validate", script_arguments(*options, command->remaining()),
                                      options->python, {"numpy", "h5py", "matplotlib"});
     });
 }

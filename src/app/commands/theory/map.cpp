@@ -150,7 +150,7 @@ point, the fraction of starts that lead to that of the standard start, and the l
 Example:
   vibrotrough theory map --x throw_number=0.3:3.3:500 --y vibration_angle_deg=5:60:500 \
       --friction 0.35 --tan-inclination -0.1 --output map.h5
-  postprocess/draw_theory_map.py map.h5)");
+  python3 -m vibrotrough.figures.theory_map map.h5)");
     command->callback([options, &exit_code] {
         run_theory_map(*options);
         exit_code = all_well;

@@ -1,0 +1,1 @@
+"""Figures of campaigns, of maps of the theory and of calibrations; `draw` is the program's `plot`."""

@@ -1,0 +1,1 @@
+"""The pages of `vibrotrough report`, `design --page` and `calibrate --page`."""
