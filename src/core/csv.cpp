@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <regex>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -73,8 +72,15 @@ bool has_decimal_comma(std::string_view text) {
 
 /// Whether it is a number such as 1.450, maybe with a unit, whose point may divide thousands.
 bool may_be_thousands(std::string_view cell) {
-    static std::regex const thousands(R"([+-]?[1-9]\d{0,2}(\.\d{3})+( .*)?)");
-    return cell.size() < 100 && std::regex_match(cell.begin(), cell.end(), thousands);
+    std::string_view number = cell.substr(0, cell.find(' '));
+    if (number.starts_with('+') || number.starts_with('-')) number.remove_prefix(1);
+    std::size_t const point = number.find('.');
+    if (point < 1 || point > 3 || number.front() == '0' || (number.size() - point) % 4 != 0) return false;
+    for (std::size_t i = 0; i < number.size(); ++i) {
+        bool const divides = i >= point && (i - point) % 4 == 0;
+        if (divides ? number[i] != '.' : number[i] < '0' || number[i] > '9') return false;
+    }
+    return true;
 }
 
 }  // namespace

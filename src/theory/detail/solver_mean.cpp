@@ -2,10 +2,7 @@
 #include "theory/detail/solver.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include <boost/math/distributions/students_t.hpp>
 
 // The mean of a motion without a period.
 namespace vibrotrough::theory::detail {
@@ -73,18 +70,14 @@ Batch sum_of(std::vector<Batch> const& batches) {
 /// and 5 batches. Where it grows with the length of the batches, they are too short: their means are not
 /// independent. The copy is small.
 double half_width_of(std::vector<Batch> batches) {
-    static std::array<double, batch_count + 1> const student = [] {
-        std::array<double, batch_count + 1> quantiles{};
-        for (std::size_t n = batch_count; n >= batch_count / 4; n /= 2)
-            quantiles[n] = boost::math::quantile(boost::math::students_t(static_cast<double>(n - 1)), 0.975);
-        return quantiles;
-    }();
     double largest = 0, mean = sum_of(batches).mean();
-    for (; batches.size() >= batch_count / 4; join_pairs(batches)) {
+    // Quantiles 0.975 for 19, 9 and 4 degrees of freedom.
+    for (double const student : {2.0930240544083092, 2.2621571627982049, 2.7764451051977934}) {
         auto const n = static_cast<double>(batches.size());
         double squares = 0;
         for (Batch const& one : batches) squares += (one.mean() - mean) * (one.mean() - mean);
-        largest = std::max(largest, student[batches.size()] * std::sqrt(squares / (n - 1) / n));
+        largest = std::max(largest, student * std::sqrt(squares / (n - 1) / n));
+        join_pairs(batches);
     }
     return slow_changes * largest;
 }
