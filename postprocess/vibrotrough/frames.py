@@ -182,8 +182,9 @@ class Frames(Sequence[Frame]):
         table = packing.table("dump/frames.csv")
         steps = [int(step) for step in table["step"]]
         self._steps = [step for step in steps if packing.file(f"dump/frames.{step}.dump").is_file()]
-        # A last frame that the engine did not finish has no dump behind its line.
-        if self._steps not in (steps, steps[:-1]):
+        # A last frame that the engine did not finish has no dump behind its line, and no part in the result.
+        ended = packing.result_cycles * packing.steps_per_cycle
+        if self._steps != steps and (self._steps != steps[:-1] or steps[-1] <= ended):
             raise ValueError(f"{packing.folder / 'dump'} lacks {len(steps) - len(self._steps)} of its {len(steps)} frames, so that a mean over the others "
                              "would be another one; put them back, or run the campaign into a new folder")  # fmt: skip
         self._trough = {int(step): np.array([x, z]) for step, x, z in zip(table["step"], table["trough_x"], table["trough_z"])}

@@ -5,6 +5,7 @@
 #include "compare/contrasts.hpp"
 #include "compare/exports.hpp"
 #include "compare/point_mass_csv.hpp"
+#include "compare/record_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/time.hpp"
 #include "core/version.hpp"
@@ -101,7 +102,8 @@ std::vector<campaign::CaseOverview> write_report_data(campaign::Plan const& plan
                     {"columns", column_descriptions(compared.columns)},
                     {"swept", swept_list(plan)},
                     {"cases", cases_with_effects(compared)},
-                    {"differences", differences(plan, compared)}};
+                    {"differences", differences(plan, compared)},
+                    {"records", write_records(cases, folder)}};
     constexpr auto replace = Json::error_handler_t::replace;  // a user's text may not be UTF-8
     core::write_file_atomically(folder / "campaign.json", json.dump(2, ' ', false, replace) + "\n");
     core::write_file_atomically(folder / "theory_curves.csv", theory_curves_csv(compared.rows));

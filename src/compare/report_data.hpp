@@ -15,7 +15,8 @@ namespace vibrotrough::compare {
 ///   differences of `compare --contrast`;
 /// - `theory_curves.csv`: fine curves of velocity efficiency, the same as `compare --theory-curves`;
 /// - `point_mass/<id>.csv`: one period of the theory's point mass on each case's trough in SI units, empty
-///   when its motion has no period.
+///   when its motion has no period;
+/// - `records/`: measured motions with what the decks run of them (record_files.hpp).
 ///
 /// @param activity  what the executors know of the campaign, for cases without a result
 /// @returns what is known of the cases

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::compare {
 namespace {
@@ -108,16 +109,26 @@ bool holds(Condition const& condition, Row const& row) {
     return false;
 }
 
-/// What to write instead of a name that no column has.
+/// Whether the tables print a column below this heading.
+bool is_headed(Column const& column, std::string_view heading) {
+    auto const& terminal = column.terminal;
+    return (terminal && (terminal->heading == heading ||
+                         fmt::format("{} {}", terminal->heading, terminal->subheading) == heading)) ||
+           (column.report && column.report->heading == heading);
+}
+
+/// What to write instead of a name that no column has, or the heading of several ones.
 std::string advice_of(std::span<Column const> columns, std::string_view name) {
-    std::vector<std::string_view> names{"speed"};  // an older name, and a common word
+    std::vector<std::string_view> names{"speed"}, headed;  // an older name, and a common word
     for (Column const& column : columns) {
+        if (is_headed(column, name)) headed.push_back(column.name);
         std::string const unit = column.unit == "1" ? "" : unit_suffix(column.unit);
         std::string_view const column_name = column.name;
         names.push_back(column_name);
         if (column_name.ends_with(unit))
             names.push_back(column_name.substr(0, column_name.size() - unit.size()));
     }
+    if (headed.size() > 1) return fmt::format("it is a heading of {}", fmt::join(headed, " and "));
     if (auto const nearest = core::nearest_word(name, names); !nearest.empty())
         return fmt::format("did you mean {}?", nearest);
     return "'vibrotrough quantities' describes all";
@@ -140,14 +151,8 @@ Column const& column_named(std::span<Column const> columns, std::string_view opt
     auto const is_short = [&](Column const& column) {
         return column.swept >= 0 && column.key.substr(column.key.find('.') + 1) == name;
     };
-    // As the tables print it, where only one column is headed so.
-    auto const is_headed = [&](Column const& column) {
-        auto const& terminal = column.terminal;
-        return (terminal && (terminal->heading == name ||
-                             fmt::format("{} {}", terminal->heading, terminal->subheading) == name)) ||
-               (column.report && column.report->heading == name);
-    };
-    for (auto const& fits : {std::function<bool(Column const&)>(is_short), {is_headed}})
+    auto const is_headed_so = [&](Column const& column) { return is_headed(column, name); };
+    for (auto const& fits : {std::function<bool(Column const&)>(is_short), {is_headed_so}})
         if (std::ranges::count_if(columns, fits) == 1) return *std::ranges::find_if(columns, fits);
     throw core::InputError(
         fmt::format("{}: there is no column '{}'; {}", option, name, advice_of(columns, name)));

@@ -189,7 +189,7 @@ HandPacking measure_packing(prepare::PreparedCase prepared, fs::path const& fold
                         (folder / "cycles.csv").string(), packing.cycles));
     packing.efficiency = read_efficiency(prepared, folder, packing.cycles);
     long const last_step = static_cast<long>(packing.cycles) * prepared.time.steps_per_cycle;
-    auto const evaluated = evaluate_outputs(prepared, packing.number, files, last_step, DeckOf::hand);
+    auto const evaluated = evaluate_outputs(prepared, packing.number, files, last_step);
     if (auto const* const record = std::get_if<store::PackingRecord>(&evaluated)) {
         packing.mode = record->motion.mode;
     } else {

@@ -219,13 +219,12 @@ void add_run(store::PackingRecord& record, PackingMarker const& marker) {
 
 std::variant<store::PackingRecord, UnusableOutputs> evaluate_outputs(prepare::PreparedCase const& prepared,
                                                                      int packing, PackingFiles const& files,
-                                                                     long last_step, DeckOf deck) {
+                                                                     long last_step) {
     try {
         auto const cycles = parse(prepared, files.cycles);
         auto const phases = packing_phases(prepared, files.phases);
         if (auto fault = find_fault(prepared, files, cycles, phases, last_step)) return std::move(*fault);
-        if (auto fault = find_contradiction(prepared, cycles); fault && deck == DeckOf::scenario)
-            return std::move(*fault);
+        if (auto fault = find_contradiction(prepared, cycles)) return std::move(*fault);
         return measure_packing(prepared, packing, files, cycles, phases);
     } catch (core::Error const& error) {
         return UnusableOutputs{core::Outcome::outputs_incomplete, error.what()};

@@ -58,9 +58,6 @@ struct UnusableOutputs {
     std::string message;    ///< one line for people
 };
 
-/// Whether the deck that was run is the scenario's, or a person may have given it another frequency.
-enum class DeckOf { scenario, hand };
-
 /// Evaluates a packing whose engine ended normally: checks that all cycles and phases are there, that every
 /// number is finite, that displacements and velocities say the same, and that the trough carried the layer's
 /// weight, and measures everything that the case's result will need.
@@ -69,8 +66,7 @@ enum class DeckOf { scenario, hand };
 /// @return the record without wall time and deck, which only the caller knows, or why there is none
 std::variant<store::PackingRecord, UnusableOutputs> evaluate_outputs(prepare::PreparedCase const& prepared,
                                                                      int packing, PackingFiles const& files,
-                                                                     long last_step,
-                                                                     DeckOf deck = DeckOf::scenario);
+                                                                     long last_step);
 
 /// A finished packing from its folder; none when it is not finished.
 /// @param cycles  of the run that are used; the others are left out

@@ -87,6 +87,16 @@ TEST(Sort, PutsUnknownNumbersLast) {
     EXPECT_EQ(ids(sorted(some_rows(), "friction:desc")), "abcd") << "equal rows keep their order";
 }
 
+TEST(Sort, TakesTheHeadingsOfTables) {
+    EXPECT_EQ(ids(sorted(some_rows(), "Gamma:desc")), "cabd") << "in a terminal";
+    EXPECT_EQ(ids(sorted(some_rows(), "throw number \u0393:desc")), "cabd") << "in a report";
+    EXPECT_EQ(ids(filtered(some_rows(), "eta theory at mu = 0.5")), "ab");
+    std::string const said = refusal([] { sorted(some_rows(), "eta theory"); });
+    EXPECT_NE(said.find("no column 'eta theory'; it is a heading of efficiency_theory and "),
+              std::string::npos)
+        << said;
+}
+
 TEST(Sort, SaysWhatIsWrong) {
     auto const said = [](char const* key) { return refusal([&] { sorted(some_rows(), key); }); };
     EXPECT_NE(said("eta").find("--sort: there is no column 'eta'"), std::string::npos);

@@ -1,4 +1,4 @@
-#include "scenario/model/drive.hpp"
+#include "scenario/model/recorded_motion.hpp"
 
 #include <cmath>
 #include <functional>
@@ -14,6 +14,7 @@ namespace vibrotrough::scenario {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double omega = 2 * std::numbers::pi * 25;
 
@@ -107,6 +108,31 @@ TEST(Waveform, NoiseAndDriftAreLeftOutAndTold) {
     EXPECT_THAT(w->remarks[1], HasSubstr("up to order 3 of 30"));
     EXPECT_THAT(w->remarks[1], HasSubstr("noise of 5.")) << "4 m/s2 along both axes: 5.7";
     EXPECT_THAT(w->remarks[1], HasSubstr("drift"));
+}
+
+// What lies above order 30, or is no multiple of the fundamental, is left out and told.
+TEST(Waveform, OtherVibrationsAreTold) {
+    auto const with = [](double size, double order) {
+        return [=](double t) { return 1.5e-3 * std::sin(omega * t) + size * std::sin(order * omega * t); };
+    };
+    EXPECT_THAT(read(record(with(5e-4, 40), normal, {.rate = 5000}))->remarks[1],
+                HasSubstr("a vibration of 0.5 mm at 1000 Hz"));
+    EXPECT_THAT(read(record(with(1e-4, 2.4), normal))->remarks[1], HasSubstr("of 0.1 mm at 60 Hz"));
+    EXPECT_THAT(read(record(with(5e-4, 29), normal))->remarks[1], Not(HasSubstr("a vibration")));
+}
+
+// The figure of the report shows the samples as they were read; mean and drift are of the whole cycles.
+TEST(Waveform, TheRecordIsReadAgainForItsFigure) {
+    auto const w = read(record([](double t) { return 0.01 + along(t); }, normal, {.count = 835, .start = 3}));
+    RecordedMotion const found = recorded_motion(*w);
+    EXPECT_FALSE(found.is_acceleration);
+    ASSERT_EQ(found.time.size(), 835u);
+    EXPECT_NEAR(found.time.back(), 3 + 834 / 2000., 1e-9);
+    EXPECT_NEAR(found.samples[0][7], 0.01 + along(3 + 7 / 2000.), 1e-9);
+    EXPECT_NEAR(found.samples[1][834], normal(found.time.back()), 1e-9);
+    ASSERT_EQ(found.left_out[0].size(), 800u) << "ten cycles of 80 samples";
+    EXPECT_NEAR(found.left_out[0][400], 0.01, 1e-8);
+    EXPECT_NEAR(found.left_out[1][799], 0, 1e-8);
 }
 
 // A fundamental that is weaker than one of its harmonics is found all the same.

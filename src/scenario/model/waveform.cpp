@@ -1,4 +1,5 @@
-#include "core/csv.hpp"
+#include "scenario/model/record.hpp"
+#include "scenario/model/recorded_motion.hpp"
 #include "scenario/model/scenario.hpp"
 
 #include <algorithm>
@@ -17,115 +18,12 @@ namespace vibrotrough::scenario {
 namespace {
 
 constexpr int highest_waveform_order = 30;
-constexpr Eigen::Index fewest_samples = 8;
 constexpr double two_pi = 2 * std::numbers::pi;
-constexpr double standard_gravity = 9.80665;  ///< m/s2 in a g of an accelerometer
+constexpr double least_told =
+    0.01;  ///< of the fundamental: a vibration that is left out is told from this size on
+constexpr double beyond_noise =
+    6;  ///< standard errors: 1 of 100 maxima of a million lines of pure noise is larger
 constexpr double certain = 4;  ///< standard errors: 1 of 3000 amplitudes of pure noise is larger
-
-/// A column that a record may have.
-struct Column {
-    std::string_view name;
-    char axis;      ///< 't' for the time
-    double factor;  ///< to SI units
-    bool is_acceleration = false;
-};
-
-constexpr std::array record_columns{Column{"time_s", 't', 1},
-                                    Column{"time_ms", 't', 1e-3},
-                                    Column{"x_m", 'x', 1},
-                                    Column{"y_m", 'y', 1},
-                                    Column{"z_m", 'z', 1},
-                                    Column{"x_mm", 'x', 1e-3},
-                                    Column{"y_mm", 'y', 1e-3},
-                                    Column{"z_mm", 'z', 1e-3},
-                                    Column{"ax_m_per_s2", 'x', 1, true},
-                                    Column{"ay_m_per_s2", 'y', 1, true},
-                                    Column{"az_m_per_s2", 'z', 1, true},
-                                    Column{"ax_g", 'x', standard_gravity, true},
-                                    Column{"ay_g", 'y', standard_gravity, true},
-                                    Column{"az_g", 'z', standard_gravity, true}};
-
-/// The samples of a file, evenly spaced in time.
-struct Record {
-    double spacing = 0;       ///< s
-    Eigen::MatrixXd samples;  ///< along and normal to the trough, m or m/s2
-    bool is_acceleration = false;
-    double across = 0;  ///< half the range of the motion across the trough; 0 where it is not given
-
-    Eigen::Index count() const { return samples.rows(); }
-    char const* unit() const { return is_acceleration ? "m/s2" : "mm"; }
-    double in_unit(double value) const { return is_acceleration ? value : 1e3 * value; }
-};
-
-[[noreturn]] void refuse_header(int line, std::string const& name) {
-    throw std::invalid_argument(
-        fmt::format("line {}: {}; a record has the columns time_s (or time_ms) and x_m, z_m (or x_mm, z_mm), "
-                    "or ax_m_per_s2, az_m_per_s2 (or ax_g, az_g), and may have those of y",
-                    line, name));
-}
-
-/// What each column of the file is; those of time, x and z are there.
-std::vector<Column> known_columns(core::CsvReader const& table) {
-    std::vector<Column> found;
-    for (std::string const& name : table.columns()) {
-        auto const column = std::ranges::find(record_columns, name, &Column::name);
-        if (column == record_columns.end())
-            refuse_header(table.header_line(), fmt::format("'{}' is not a known column", name.substr(0, 40)));
-        found.push_back(*column);
-    }
-    for (char const axis : {'t', 'x', 'z'})
-        if (std::ranges::count(found, axis, &Column::axis) != 1)
-            refuse_header(table.header_line(), "time, x and z are not given once each");
-    bool const is_acceleration = std::ranges::find(found, 'x', &Column::axis)->is_acceleration;
-    for (Column const& column : found)
-        if (column.axis != 't' && column.is_acceleration != is_acceleration)
-            refuse_header(table.header_line(), "displacements and accelerations are mixed");
-    return found;
-}
-
-/// @throws std::invalid_argument when a sample is not where even spacing has it
-void set_spacing(Record& record, std::vector<double> const& times) {
-    record.spacing = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
-    if (!(record.spacing > 0)) throw std::invalid_argument("its times do not increase");
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        double const expected = times.front() + record.spacing * static_cast<double>(i);
-        if (std::abs(times[i] - expected) <= 0.1 * record.spacing) continue;
-        throw std::invalid_argument(fmt::format(
-            "sample {} is at {:.6g} s instead of {:.6g} s; the samples must be evenly spaced in time", i + 1,
-            times[i], expected));
-    }
-}
-
-Record read_record(std::string_view text) {
-    Record record;
-    std::vector<double> times, x, y, z;
-    try {
-        core::CsvReader table(text, "", {.comments = true, .blanks = true});
-        std::vector<Column> const found = known_columns(table);
-        record.is_acceleration = std::ranges::find(found, 'x', &Column::axis)->is_acceleration;
-        for (std::vector<double> row(found.size()); table.next(row);) {
-            for (std::size_t k = 0; k < found.size(); ++k) {
-                auto& axis = found[k].axis == 't'   ? times
-                             : found[k].axis == 'x' ? x
-                             : found[k].axis == 'y' ? y
-                                                    : z;
-                axis.push_back(row[k] * found[k].factor);
-            }
-        }
-    } catch (core::CsvError const& error) {
-        throw std::invalid_argument(fmt::format("line {}: {}", error.line(), error.problem()));
-    }
-    auto const count = static_cast<Eigen::Index>(times.size());
-    if (count < fewest_samples)
-        throw std::invalid_argument(
-            fmt::format("there are {} samples, but at least {} are needed", count, fewest_samples));
-    set_spacing(record, times);
-    record.samples.resize(count, 2);
-    record.samples << Eigen::Map<Eigen::VectorXd>(x.data(), count),
-        Eigen::Map<Eigen::VectorXd>(z.data(), count);
-    if (!y.empty()) record.across = (std::ranges::max(y) - std::ranges::min(y)) / 2;
-    return record;
-}
 
 /// A least-squares fit of sines and cosines of the orders 1 to `orders`, and of a polynomial.
 struct Fit {
@@ -133,6 +31,7 @@ struct Fit {
     Eigen::RowVector2d residual;   ///< sum of squares of each axis
     int powers;                    ///< of time in the polynomial, with the constant
     Eigen::MatrixXd polynomial;    ///< its values
+    Eigen::MatrixXd rest;          ///< of the samples, which neither explains
 };
 
 /// @param count  of the first samples are used
@@ -149,8 +48,9 @@ Fit fit(Record const& record, Eigen::Index count, double frequency, int orders, 
     auto const samples = record.samples.topRows(count);
     Eigen::MatrixXd const normal = design.transpose() * design;
     Eigen::MatrixXd const coefficients = normal.ldlt().solve(design.transpose() * samples);
-    return {coefficients, (samples - design * coefficients).colwise().squaredNorm(), powers,
-            design.leftCols(powers) * coefficients.topRows(powers)};
+    Eigen::MatrixXd rest = samples - design * coefficients;
+    return {coefficients, rest.colwise().squaredNorm(), powers,
+            design.leftCols(powers) * coefficients.topRows(powers), std::move(rest)};
 }
 
 /// Powers of time in a fit: a drift cannot be told from the motion in less than three cycles.
@@ -168,21 +68,25 @@ double refined(Record const& record, double guess, double range, int orders) {
         .first;
 }
 
-/// The number of the strongest line of the spectrum, in periods of the record.
-Eigen::Index strongest_line(Record const& record) {
-    Eigen::Index const count = record.count();
+/// A line of the spectrum of both directions together.
+struct Line {
+    Eigen::Index number;  ///< periods in the samples
+    double amplitude;
+};
+
+Line strongest_line(Eigen::MatrixXd const& samples) {
+    Eigen::Index const count = samples.rows();
     Eigen::VectorXd power = Eigen::VectorXd::Zero(count / 2 + 1);
     for (Eigen::Index axis = 0; axis < 2; ++axis) {
         Eigen::FFT<double> transform;
-        Eigen::VectorXd const values =
-            (record.samples.col(axis).array() - record.samples.col(axis).mean()).matrix();
+        Eigen::VectorXd const values = (samples.col(axis).array() - samples.col(axis).mean()).matrix();
         Eigen::VectorXcd lines;
         transform.fwd(lines, values);
         power += lines.head(count / 2 + 1).cwiseAbs2();
     }
     Eigen::Index line = 0;
-    if (!(power.tail(count / 2).maxCoeff(&line) > 0)) throw std::invalid_argument("the trough does not move");
-    return line + 1;
+    double const largest = power.tail(count / 2).maxCoeff(&line);
+    return {line + 1, 2 * std::sqrt(largest) / static_cast<double>(count)};
 }
 
 /// Whether a record that is taken for one cycle ends where it begins, to a few of its steps.
@@ -200,7 +104,7 @@ void drop_first_of_next(Record& record) {
     auto const distance = [&](Eigen::Index a, Eigen::Index b) {
         return (record.samples.row(a) - record.samples.row(b)).norm();
     };
-    if (strongest_line(record) > 1 || last < fewest_samples) return;
+    if (strongest_line(record.samples).number > 1 || last < fewest_samples) return;
     if (distance(0, last) < 0.25 * (distance(0, 1) + distance(last - 1, last)) / 2)
         record.samples.conservativeResize(last, 2);
 }
@@ -213,7 +117,9 @@ double fundamental_of(Record const& record) {
     Record first = record;
     first.samples.conservativeResize(std::min<Eigen::Index>(record.count(), 8192), 2);
     double const length = first.spacing * static_cast<double>(first.count());
-    auto const line = static_cast<double>(strongest_line(first));
+    Line const peak = strongest_line(first.samples);
+    if (!(peak.amplitude > 0)) throw std::invalid_argument("the trough does not move");
+    auto const line = static_cast<double>(peak.number);
     if (line < 1.5) {
         if (first.count() == record.count() && is_closed(record)) return 1 / duration;
         throw std::invalid_argument(
@@ -241,9 +147,10 @@ double fundamental_of(Record const& record) {
 /// The harmonics of a record, as displacements.
 struct Harmonics {
     DriveMotion all, kept;
-    double noise = 0;  ///< standard deviation of a sample, in the unit of the record
-    double drift = 0;  ///< range of the polynomial
-    int highest = 0;   ///< order that was looked for
+    double noise = 0;          ///< standard deviation of a sample, in the unit of the record
+    Eigen::MatrixXd left_out;  ///< mean and drift, sample by sample
+    Line other = {};           ///< the strongest one of what is left
+    int highest = 0;           ///< order that was looked for
 };
 
 /// a sin(k t + phi) from the coefficients of cosine and sine; twice integrated where it is an acceleration.
@@ -263,7 +170,8 @@ Harmonics harmonics_of(Record const& record, double frequency, double cycles) {
     Eigen::RowVector2d noise = Eigen::RowVector2d::Zero();
     if (free >= 8) noise = (fitted.residual / free).cwiseSqrt();
     found.noise = noise.norm();
-    found.drift = (fitted.polynomial.colwise().maxCoeff() - fitted.polynomial.colwise().minCoeff()).norm();
+    found.left_out = fitted.polynomial;
+    found.other = strongest_line(fitted.rest);
     for (int axis = 0; axis < 2; ++axis) {
         double const least = certain * noise[axis] * std::sqrt(2 / static_cast<double>(count));
         auto& all = axis == 0 ? found.all.along : found.all.normal;
@@ -307,8 +215,18 @@ std::vector<std::string> remarks_on(Waveform const& w, Record const& record, Har
     std::vector<std::string> left;
     if (found.noise > 0)
         left.push_back(fmt::format("noise of {:.2g} {} (rms)", record.in_unit(found.noise), record.unit()));
-    if (powers_of(cycles) > 1)
-        left.push_back(fmt::format("a drift of {:.2g} {}", record.in_unit(found.drift), record.unit()));
+    if (powers_of(cycles) > 1) {
+        double const drift =
+            (found.left_out.colwise().maxCoeff() - found.left_out.colwise().minCoeff()).norm();
+        left.push_back(fmt::format("a drift of {:.2g} {}", record.in_unit(drift), record.unit()));
+    }
+    auto const count = static_cast<double>(found.left_out.rows());
+    double const fundamental = w.amplitude * (record.is_acceleration ? std::pow(two_pi * w.frequency, 2) : 1);
+    if (found.other.amplitude >
+        std::max(least_told * fundamental, beyond_noise * found.noise * std::sqrt(2 / count)))
+        left.push_back(fmt::format("a vibration of {:.2g} {} at {:.4g} Hz",
+                                   record.in_unit(found.other.amplitude), record.unit(),
+                                   static_cast<double>(found.other.number) / (count * record.spacing)));
     if (record.across > 0)
         left.push_back(
             fmt::format("a motion across of up to {:.2g} {}", record.in_unit(record.across), record.unit()));
@@ -316,6 +234,10 @@ std::vector<std::string> remarks_on(Waveform const& w, Record const& record, Har
                               highest_order(w.motion), found.highest, left.empty() ? "" : "; left out are ",
                               fmt::join(left, ", ")));
     return all;
+}
+
+double whole_cycles(Record const& record, double frequency) {
+    return std::max(1.0, std::floor(frequency * record.spacing * static_cast<double>(record.count()) + 0.01));
 }
 
 /// A sentence when a harmonic accelerates the trough too much against a fundamental of this amplitude, m.
@@ -340,8 +262,7 @@ std::shared_ptr<Waveform const> read_waveform(NamedFile file) {
     drop_first_of_next(record);
     Waveform w{std::move(file)};
     w.frequency = fundamental_of(record);
-    double const cycles =
-        std::max(1.0, std::floor(w.frequency * record.spacing * static_cast<double>(record.count()) + 0.01));
+    double const cycles = whole_cycles(record, w.frequency);
     Harmonics found = harmonics_of(record, w.frequency, cycles);
     double const least = 1e-6 * largest_term(found.all);
     drop_small(found.all, least);
@@ -354,6 +275,21 @@ std::shared_ptr<Waveform const> read_waveform(NamedFile file) {
     if (!(w.amplitude > 0)) throw std::invalid_argument("the trough has no motion above the noise");
     w.remarks = remarks_on(w, record, found, cycles);
     return std::make_shared<Waveform const>(std::move(w));
+}
+
+RecordedMotion recorded_motion(Waveform const& waveform) {
+    Record record = read_record(waveform.file.content);
+    RecordedMotion motion{.is_acceleration = record.is_acceleration};
+    for (Eigen::Index i = 0; i < record.count(); ++i)
+        motion.time.push_back(record.start + record.spacing * static_cast<double>(i));
+    for (int axis = 0; axis < 2; ++axis)
+        motion.samples.at(axis).assign(record.samples.col(axis).begin(), record.samples.col(axis).end());
+    drop_first_of_next(record);
+    Eigen::MatrixXd const left_out =
+        harmonics_of(record, waveform.frequency, whole_cycles(record, waveform.frequency)).left_out;
+    for (int axis = 0; axis < 2; ++axis)
+        motion.left_out.at(axis).assign(left_out.col(axis).begin(), left_out.col(axis).end());
+    return motion;
 }
 
 std::optional<WaveformFault> find_fault(Waveform const& waveform, Trough const& trough) {
