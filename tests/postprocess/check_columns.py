@@ -97,6 +97,23 @@ def check_that_only_speeds_have_a_theory(scripts, outputs):
     assert not [line for line in figure.axes[0].lines if line.get_marker() == "x"], "the theory of a half-width"
 
 
+def check_keys_that_vary_together(scripts, outputs):
+    """Keys of one [zip] make one series for each value of another key, and not one of each point."""
+    path = outputs[0] / "data" / "campaign.json"
+    before = path.read_text(encoding="utf-8")
+    table = json.loads(before)
+    for row in table["cases"]:
+        row["grains.friction"] = 50 * row["layer.height"]
+    table["columns"].append(swept("grains.friction", "1"))
+    table["swept"].append({"column": "grains.friction"})
+    path.write_text(json.dumps(table), encoding="utf-8")
+    for x in ("layer.height", "grains.friction"):
+        figure, _ = drawn_by(scripts, outputs[:1], x, "efficiency", None, None, 1.0)
+        names = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+        assert names == [f"grain rolling friction {value}" for value in (0, 0.1)], (x, names)
+    path.write_text(before, encoding="utf-8")
+
+
 def check_mistakes(scripts, outputs):
     for asked, said in {("nonsense", "efficiency"): "no campaign has a column nonsense",
                         ("layer.height", "mass_flow_t_per_h"): "how wide the trough is (trough.width); draw mass_flow_per_width"}.items():  # fmt: skip
@@ -117,6 +134,7 @@ def main():
     check_whole_interval(scripts, outputs)
     check_that_only_speeds_have_a_theory(scripts, outputs)
     check_flow_of_a_metre(scripts, outputs)
+    check_keys_that_vary_together(scripts, outputs)
     check_mistakes(scripts, outputs)
 
 

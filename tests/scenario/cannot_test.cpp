@@ -1,8 +1,8 @@
 #include "scenario/reader/cannot.hpp"
 
-#include "core/error.hpp"
 #include "example_campaign.hpp"
 #include "scenario/reader/keys.hpp"
+#include "single_case.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,15 +13,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-
-std::string error_of(std::string const& text) {
-    try {
-        scenario_of(text);
-    } catch (core::InputError const& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 // What people ask for and the program cannot do is said, with what can be done instead, and without a key
 // that is only spelt like it.

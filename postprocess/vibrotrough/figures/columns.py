@@ -137,8 +137,18 @@ def grouping(table: Table, x: Shown, by: Sequence[str] | None) -> list[Mapping[s
     """The columns that tell the series apart: those that are asked for, or the swept keys that are not on the axis."""
     if by is not None:
         return [find_column(one, [table]) for one in by]
-    swept = [one for one in table.columns if one["name"] in table.swept]
-    return [one for one in swept if one["name"] != x.name and len({str(row.get(one["name"])) for row in table.rows}) > 1]
+    swept = sorted((one for one in table.columns if one["name"] in table.swept), key=lambda one: bool(one["name"] != x.name))
+    kept: list[Mapping[str, Any]] = []  # of those that vary together, as in [zip], the first one
+    for one in swept:
+        if not any(vary_together(one, other, table.rows) for other in kept):
+            kept.append(one)
+    return [one for one in kept if one["name"] != x.name and len({str(row.get(one["name"])) for row in table.rows}) > 1]
+
+
+def vary_together(one: Mapping[str, Any], other: Mapping[str, Any], rows: Iterable[Row]) -> bool:
+    """Whether each value of one column goes with a single value of the other."""
+    pairs = {(str(row.get(one["name"])), str(row.get(other["name"]))) for row in rows}
+    return len(pairs) == len({first for first, _ in pairs}) == len({second for _, second in pairs})
 
 
 def label_of(row: Row, columns: Iterable[Mapping[str, Any]]) -> str:
