@@ -168,7 +168,8 @@ std::string theory_curves_csv(std::vector<Row> const& rows) {
     std::map<Line, LineModels> lines;
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (Row const& row : rows) {
-        if (row.is_staged || !(row.vibration_angle_deg > 0)) continue;
+        bool const moves_along_and_normal = row.vibration_angle_deg > 0 && row.vibration_angle_deg < 90;
+        if (row.is_staged || !moves_along_and_normal) continue;
         lines[{row.vibration_angle_deg, row.inclination_deg, row.friction}].add(row);
         least = std::min(least, row.throw_number);
         most = std::max(most, row.throw_number);

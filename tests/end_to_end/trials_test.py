@@ -72,6 +72,9 @@ class Trials(EndToEndTest):
         self.run_shortly("updown")
         for values in self.efficiencies().values():
             self.assertLess(abs(values[0]), 0.02, "on a level trough nothing drives the layer along")
+        done = self.call("report", self.folder / "results")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.folder / "results" / "report" / "record.svg").is_file(), "the record and the cycle of the deck")
 
     def test_quick_return(self):
         self.run_shortly("quickreturn")

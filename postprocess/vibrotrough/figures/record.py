@@ -22,14 +22,15 @@ def plot_record(source: Source, output: pathlib.Path) -> list[pathlib.Path]:
     drawn = records[:MOST_RECORDS]
     if not drawn:
         return []
-    height = 0.9 + 4.6 * len(drawn)
+    height = 0.9 + 5.0 * len(drawn)
     figure, axes = new_figure(2 * len(drawn), 2, size=(9.0, height), sharex="col", sharey="row", squeeze=False, width_ratios=(1.6, 1))
     for place, record in enumerate(drawn):
         files = [np.genfromtxt(source.data / "records" / f"{place + 1}{ending}.csv", delimiter=",", names=True) for ending in ("", "_cycle")]
         for row, direction in zip(axes[2 * place : 2 * place + 2], DIRECTIONS):
             draw_direction(row, record, *files, direction)
-        told = shown("\n".join(line for remark in record["remarks"] for line in textwrap.wrap(remark, characters_across(figure, points(8)))))
-        axes[2 * place, 0].set_title(told, fontsize=points(8), loc="left")
+        width = int(0.55 * characters_across(figure, points(8)))  # of the left panels
+        told = [line for remark in record["remarks"] for line in textwrap.wrap(shown(remark), width)]
+        axes[2 * place, 0].set_title("\n".join(told), fontsize=points(8), loc="left")
     axes[-1, 0].set_xlabel("time  [s]")
     axes[-1, 1].set_xlabel("time in cycles, t / T  [-]")
     handles, labels = axes[0, 0].get_legend_handles_labels()
