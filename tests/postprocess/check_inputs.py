@@ -10,7 +10,7 @@ import numpy as np
 
 def series(keys, throw_numbers):
     """The axis and the keys of the series, of cases with these values."""
-    from figure_inputs import make_input, split_inputs
+    from vibrotrough.figures.inputs import make_input, split_inputs
 
     over, others = split_inputs({"throw_number": np.array(throw_numbers)}, [make_input(key, np.array(values), "1") for key, values in keys.items()])
     return over.key, [one.key for one in others]

@@ -27,7 +27,7 @@ def plot_record(source: Source, output: pathlib.Path) -> list[pathlib.Path]:
     for place, record in enumerate(drawn):
         files = [np.genfromtxt(source.data / "records" / f"{place + 1}{ending}.csv", delimiter=",", names=True) for ending in ("", "_cycle")]
         for row, direction in zip(axes[2 * place : 2 * place + 2], DIRECTIONS):
-            draw_direction(row, record, *files, direction)
+            draw_direction(row, record, files[0], files[1], direction)
         width = int(0.55 * characters_across(figure, points(8)))  # of the left panels
         told = [line for remark in record["remarks"] for line in textwrap.wrap(shown(remark), width)]
         axes[2 * place, 0].set_title("\n".join(told), fontsize=points(8), loc="left")

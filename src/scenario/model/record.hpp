@@ -13,11 +13,14 @@ struct Record {
     double start = 0;         ///< s, of the first sample
     double spacing = 0;       ///< s
     Eigen::MatrixXd samples;  ///< along and normal to the trough, m or m/s2
-    bool is_acceleration = false;
+    bool is_acceleration = false;  ///< otherwise positions
     double across = 0;  ///< half the range of the motion across the trough; 0 where it is not given
 
+    /// Number of samples.
     Eigen::Index count() const { return samples.rows(); }
+    /// The unit in which messages give its samples.
     char const* unit() const { return is_acceleration ? "m/s2" : "mm"; }
+    /// A sample, m or m/s2, in unit().
     double in_unit(double value) const { return is_acceleration ? value : 1e3 * value; }
 };
 
