@@ -10,9 +10,9 @@ inline constexpr Eigen::Index fewest_samples = 8;  ///< of a record
 
 /// The samples of a file, evenly spaced in time.
 struct Record {
-    double start = 0;         ///< s, of the first sample
-    double spacing = 0;       ///< s
-    Eigen::MatrixXd samples;  ///< along and normal to the trough, m or m/s2
+    double start = 0;              ///< s, of the first sample
+    double spacing = 0;            ///< s
+    Eigen::MatrixXd samples;       ///< along and normal to the trough, m or m/s2
     bool is_acceleration = false;  ///< otherwise positions
     double across = 0;  ///< half the range of the motion across the trough; 0 where it is not given
 
