@@ -98,7 +98,7 @@ class Trials(EndToEndTest):
         omega, rows = 2 * math.pi * 25, []
         for i in range(1325):
             t = 1.7 + i / 3300
-            x = -omega**2 * (1.8e-3 * math.sin(omega * t) + 9e-4 * math.sin(3 * omega * t + 0.5) / 9)
+            x = -omega**2 * (1.8e-3 * math.sin(omega * t) + 9e-4 * math.sin(3 * omega * t + 0.5))
             z = -omega**2 * 1.1e-3 * math.sin(omega * t + 0.2)
             drift = 0.4 + 2 * (t - 1.7)
             rows.append(f"{t:.6f};{x + drift + draw.gauss(0, 3):.4f};{z + drift + draw.gauss(0, 3):.4f}".replace(".", ","))
