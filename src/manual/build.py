@@ -4,9 +4,11 @@ usage: build.py PROGRAM FOLDER
 Writes FOLDER/html/index.html. The pages that the manual has in common with other folders keep their names in SHARED.
 """
 
+import csv
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -20,6 +22,7 @@ import validate  # noqa: E402
 SHARED = {"src/CHANGES.md": "changes.md", "input_templates/tutorial/design.md": "tutorial_design.md",
           "input_templates/tutorial/depth.md": "tutorial_depth.md"}
 FOLDERS = ("validation/", "input_templates/pictures/")  # copied with their pages, pictures and tables
+GENERATED = {f"input_templates/plant/{name}.csv": f"reference/plant.md#{name}" for name in ("materials", "drives", "motors")}
 LINK = re.compile(r"(?P<image>!?)\[(?P<text>(?:[^\[\]]|\[[^\]]*\])*)\]\((?P<target>[^()\s]+)\)")
 
 
@@ -29,8 +32,8 @@ def printed(program: str, *words: str) -> str:
 
 def place(path: str) -> str | None:
     """Where a file of the repository lies in the manual, or None."""
-    if path in SHARED:
-        return SHARED[path]
+    if path in SHARED | GENERATED:
+        return (SHARED | GENERATED)[path]
     if path.startswith("src/manual/"):
         return path.removeprefix("src/manual/")
     return path if path.startswith(FOLDERS) else None
@@ -115,6 +118,27 @@ def quantities(source: pathlib.Path, program: str) -> None:
     write(source, "parts/outcomes.md", outcomes)
 
 
+def plant_tables(source: pathlib.Path) -> None:
+    """The page of the tables that come with `vibrotrough design`: their comments as prose, their rows."""
+    parts = ["# Materials, drives and motors\n\nThese tables come with the program.\n"]
+    for name in ("materials", "drives", "motors"):
+        lines = (ROOT / f"input_templates/plant/{name}.csv").read_text(encoding="utf-8").splitlines()
+        prose = " ".join(line.removeprefix("#").strip() for line in lines if line.startswith("#"))
+        header, *rows = csv.reader(line for line in lines if not line.startswith("#"))
+        table = [header, ["---"] * len(header), *rows]
+        parts.append(f"## {name.capitalize()}\n\n{prose}\n\n" + "".join(f"| {' | '.join(row)} |\n" for row in table))
+    write(source, "reference/plant.md", "\n".join(parts))
+
+
+def design_example(source: pathlib.Path, program: str) -> None:
+    """The first command of the page on designs, and what it prints."""
+    page = (MANUAL / "howto/design.md").read_text(encoding="utf-8")
+    command = re.search(r"^    vibrotrough ((?:.*\\\n)*.*)$", page, re.MULTILINE)
+    assert command
+    words = shlex.split(command[1].replace("\\\n", " "))
+    write(source, "parts/design_answer.md", f"```text\n{printed(program, *words)}```\n")
+
+
 def libraries() -> str:
     return subprocess.run(["cmake", "-P", str(ROOT / "src/dependencies.cmake")], check=True, capture_output=True, text=True).stdout
 
@@ -131,6 +155,8 @@ def generate(source: pathlib.Path, program: str) -> None:
     commands(source, program)
     quantities(source, program)
     write(source, "reference/keys.md", with_links(printed(program, "keys"), "src/scenario/keys.md"))
+    plant_tables(source)
+    design_example(source, program)
     write(source, "reference/headers.md", headers())
     write(source, "reference/theory_map.md", theory_map.page(program))
     write(source, "parts/libraries.md", libraries())

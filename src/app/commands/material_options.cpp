@@ -60,8 +60,10 @@ void MaterialOptions::add_to(CLI::App& command, std::string const& group) {
     std::vector<std::string> kinds;
     for (auto const& one : learn::grain_kinds()) kinds.emplace_back(one.name);
     command
-        .add_option("--grain-kind", kind_,
-                    "Of grains that are not dry and roundish: no model knows these, and the answer says why")
+        .add_option(
+            "--grain-kind", kind_,
+            "Of grains that are not dry and roundish: rods and mixes are answered as spheres without a "
+            "probability, the others with the reason why no model knows them")
         ->check(CLI::IsMember(kinds))
         ->group(group);
 }
