@@ -113,8 +113,8 @@ std::vector<Quantity> efficiency_quantities() {
         {"efficiency_numerics",
          "1",
          "Numerical error of efficiency, by softness of the grains, box and time step: as 'vibrotrough "
-         "convergence' measured it, else as layers showed it that were simulated in pairs (validation/numerics), of "
-         "layers above 8 diameters its bound at 95 % (validation/whole_interval)",
+         "convergence' measured it, else as layers showed it that were simulated in pairs "
+         "(validation/numerics), of layers above 8 diameters its bound at 95 % (validation/whole_interval)",
          Real([](Case c) { return c.numerical_error(); }),
          nothing,
          {{.format = "{:.3f}", .report = ReportView{"\u00b1 numerical"}}}},

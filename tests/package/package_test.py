@@ -4,6 +4,7 @@ It is unpacked and not installed, because that would change the machine. Program
 package, groff the manual page, bash the completion.
 """
 
+import gzip
 import json
 import os
 import subprocess
@@ -13,7 +14,7 @@ from pathlib import Path
 
 from trough_program import campaign_text
 
-SOURCE, BUILD, CPACK = (os.environ[f"VIBROTROUGH_{name}"] for name in ("SOURCE", "BUILD", "CPACK"))
+SOURCE, BUILD, CPACK, CMAKE = (os.environ[f"VIBROTROUGH_{name}"] for name in ("SOURCE", "BUILD", "CPACK", "CMAKE"))
 
 
 def call(*command, **settings):
@@ -41,10 +42,12 @@ class Unpacked(unittest.TestCase):
             raise AssertionError(made.stdout + made.stderr)
         [cls.package] = (cls.folder / "made").glob("vibrotrough_*.deb")
         [cls.module] = (cls.folder / "made").glob("python3-vibrotrough_*.deb")
-        assert len(list((cls.folder / "made").glob("*.deb"))) == 2
-        cls.root, cls.module_root = cls.folder / "root", cls.folder / "module-root"
+        [cls.library] = (cls.folder / "made").glob("libvibrotrough-theory-dev_*.deb")
+        assert len(list((cls.folder / "made").glob("*.deb"))) == 3
+        cls.root, cls.module_root, cls.library_root = (cls.folder / name for name in ("root", "module-root", "library-root"))
         subprocess.run(["dpkg-deb", "--extract", cls.package, cls.root], check=True)
         subprocess.run(["dpkg-deb", "--extract", cls.module, cls.module_root], check=True)
+        subprocess.run(["dpkg-deb", "--extract", cls.library, cls.library_root], check=True)
         cls.program = cls.root / "usr/bin/vibrotrough"
 
 
@@ -86,7 +89,16 @@ class Package(Unpacked):
             self.assertNotIn(name, needed)
         files = [{str(path.relative_to(root)) for path in root.rglob("*") if path.is_file()} for root in (self.root, self.module_root)]
         self.assertEqual(files[0] & files[1], set())
-        self.assertEqual([path for path in files[1] if not path.startswith("usr/lib/python3/dist-packages/vibrotrough/")], [])
+        own = ("usr/lib/python3/dist-packages/vibrotrough/", "usr/share/doc/python3-vibrotrough/")
+        self.assertEqual([path for path in files[1] if not path.startswith(own)], [])
+
+    def test_another_program_finds_the_theory(self):
+        """As find_package(vibrotrough-theory) does, with the library's package alone."""
+        built = self.folder / "consumer"
+        for command in ((CMAKE, "-S", f"{SOURCE}/tests/theory_package/consumer", "-B", built, f"-DCMAKE_PREFIX_PATH={self.library_root}/usr"),
+                        (CMAKE, "--build", built)):
+            done = call(*command)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_python_finds_the_module(self):
         modules = self.module_root / "usr/lib/python3/dist-packages"
@@ -110,7 +122,8 @@ class Package(Unpacked):
         self.assertIn("./setup page", done.stderr)
 
     def test_the_manual_page_is_sound_and_complete(self):
-        page = self.root / "usr/share/man/man1/vibrotrough.1"
+        page = self.folder / "vibrotrough.1"
+        page.write_bytes(gzip.decompress((self.root / "usr/share/man/man1/vibrotrough.1.gz").read_bytes()))
         shown = call("groff", "-man", "-ww", "-Tutf8", "-P-cbou", "-rLL=100n", page)
         self.assertEqual((shown.returncode, shown.stderr), (0, ""))
         for words in ("vibrotrough tutorial depth", "compare", "--version", "Exit codes"):
