@@ -70,7 +70,7 @@ class NoFields(ValueError):
 class Kernel:
     """4 / (pi w^2) (1 - r^2/w^2)^3 in the plane, in 1/m2."""
 
-    width: float  # w, m
+    width: float  #: w, m
 
     def at(self, x: Floats, z: Floats) -> Floats:
         """Its value at this distance from its centre."""
@@ -102,10 +102,10 @@ class Grid:
     """Points in the plane x, z: x repeats itself after the length of the box, z begins one width below the floor."""
 
     kernel: Kernel
-    start: float  # of the box in x, m
-    length: float  # of the box, m
-    breadth: float  # of the box across the trough, m
-    top: float  # m above the floor
+    start: float  #: of the box in x, m
+    length: float  #: of the box, m
+    breadth: float  #: of the box across the trough, m
+    top: float  #: m above the floor
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -91,17 +91,17 @@ def observable(unit: str = "1", *, needs: str = "frames", of: str = "cycle", ove
 class Frame:
     """The grains at one moment, in the order of their numbers `ids`, which are the same in all frames."""
 
-    step: int  # of the engine
-    cycle: float  # since the trough began to move
-    time: float  # s
-    trough: Floats  # m, displacement of the trough from rest: x, z
-    box: Floats  # m, a row of lower and upper bound for x, y and z
+    step: int  #: of the engine
+    cycle: float  #: since the trough began to move
+    time: float  #: s
+    trough: Floats  #: m, displacement of the trough from rest: x, z
+    box: Floats  #: m, a row of lower and upper bound for x, y and z
     ids: Integers
-    types: Integers  # 1: the grains of [grains]; 2 and perhaps 3: the trough; further ones: those of [[materials]]
-    positions: Floats  # m, (grains, 3), inside the box
-    velocities: Floats  # m/s, (grains, 3), relative to the ground
-    radii: Floats  # m
-    spins: Floats  # rad/s, (grains, 3)
+    types: Integers  #: 1: the grains of [grains]; 2 and perhaps 3: the trough; further ones: those of [[materials]]
+    positions: Floats  #: m, (grains, 3), inside the box
+    velocities: Floats  #: m/s, (grains, 3), relative to the ground
+    radii: Floats  #: m
+    spins: Floats  #: rad/s, (grains, 3)
 
     def __repr__(self) -> str:
         return f"<Frame: step {self.step}, cycle {self.cycle:.6g}, {self.time:.6g} s, {len(self.ids)} grains>"
@@ -129,13 +129,13 @@ class Contacts:
     """The contacts at one moment. The engine evaluates the forces once more for them, with the speeds at the whole step."""
 
     step: int
-    first: Integers  # number of the first grain
-    second: Integers  # number of the second grain; 0 for the trough
-    branch: Floats  # m, (contacts, 3), from the centre of the first grain to that of the second, or to the point on the trough
-    places: Floats  # m, (contacts, 3), centre of the first grain
-    normal_force: Floats  # N, (contacts, 3), on the first grain
-    tangential_force: Floats  # N, (contacts, 3), on the first grain
-    overlap: Floats  # m
+    first: Integers  #: number of the first grain
+    second: Integers  #: number of the second grain; 0 for the trough
+    branch: Floats  #: m, (contacts, 3), from the centre of the first grain to that of the second, or to the point on the trough
+    places: Floats  #: m, (contacts, 3), centre of the first grain
+    normal_force: Floats  #: N, (contacts, 3), on the first grain
+    tangential_force: Floats  #: N, (contacts, 3), on the first grain
+    overlap: Floats  #: m
 
     def __repr__(self) -> str:
         return f"<Contacts: step {self.step}, {np.count_nonzero(self.second)} of grains, {np.count_nonzero(self.second == 0)} with the trough>"
@@ -295,7 +295,7 @@ class Cycle:
     """One cycle of a packing's drive."""
 
     packing: Packing
-    number: int  # from 1
+    number: int  #: from 1
 
     @property
     def frames(self) -> list[Frame]:

@@ -7,6 +7,7 @@
 #include "app/progress_printer.hpp"
 #include "app/standard_streams.hpp"
 #include "campaign/schedule/forecast.hpp"
+#include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/file_lock.hpp"
 #include "campaign/state/overview.hpp"
 #include "core/atomic_file.hpp"
@@ -136,6 +137,19 @@ std::unique_ptr<campaign::Observer> RunOptions::make_observer() const {
     return std::make_unique<ProgressPrinter>();
 }
 
+/// Results of two binaries that call themselves alike would otherwise be mixed in silence.
+void tell_other_binary(engine::Engine const& engine, fs::path const& folder) {
+    if (!fs::is_regular_file(folder / "engine.json")) return;
+    engine::Engine const before = campaign::read_engine(folder);
+    if (before.version != engine.version || before.binary_sha256.empty() ||
+        before.binary_sha256 == engine.binary_sha256)
+        return;
+    tell(
+        "vibrotrough: {} is another binary of the same version than that of the results in {}; packing.json "
+        "of each packing names its own\n",
+        engine.program.string(), folder.string());
+}
+
 ReadyCampaign prepare_run(RunOptions const& options) {
     scenario::Campaign campaign = scenario::read_campaign(options.campaign_file);
     check_setup(options, campaign.run);
@@ -150,6 +164,7 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     tell_not_covered(campaign.cases);
     bool const is_interrupted = !certify(engine, options.accept_failed_probes) ||
                                 !try_meshes(engine, options.campaign_file, campaign.cases);
+    tell_other_binary(engine, folder);
     campaign::Plan plan = campaign::make_plan(campaign, folder, engine.version);
     campaign::ExecutorKind const& kind = campaign::executor_kind(campaign.run.executor);
     campaign::ExecutorInputs inputs{folder, engine, campaign.run, options.jobs, core::own_program()};

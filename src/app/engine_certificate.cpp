@@ -67,10 +67,10 @@ bool try_meshes(engine::Engine const& engine, std::string const& campaign_file,
         auto const problem = engine::read_meshes(engine, deck);
         if (!problem) return false;
         if (problem->empty()) continue;
-        throw core::InputError(
-            fmt::format("{}: trough.mesh: {}: the engine refuses the surface: {}; export it with fewer or "
-                        "stouter triangles",
-                        campaign_file, one.trough.mesh->names(), *problem));
+        throw core::InputError(fmt::format(
+            "{}: trough.mesh: {}: the engine refuses the surface: {}; export it with fewer or "
+            "stouter triangles ('vibrotrough check' names the worst and its place)",
+            campaign_file, one.trough.mesh->names(), problem->substr(0, problem->find(" You will need"))));
     }
     return true;
 }

@@ -68,6 +68,14 @@ double number_in(std::string_view text, std::string_view condition) {
     return number;
 }
 
+/// Whether the tables print a column below this heading.
+bool is_headed(Column const& column, std::string_view heading) {
+    auto const& terminal = column.terminal;
+    return (terminal && (terminal->heading == heading ||
+                         fmt::format("{} {}", terminal->heading, terminal->subheading) == heading)) ||
+           (column.report && column.report->heading == heading);
+}
+
 Condition parse(std::string_view text, std::span<Column const> columns) {
     std::string_view constexpr signs = "<>=!";
     std::size_t const at = text.find_first_of(signs);
@@ -80,8 +88,12 @@ Condition parse(std::string_view text, std::span<Column const> columns) {
                         text));
     }
     std::string_view const value = trimmed(text.substr(value_at));
-    Column const& column = column_named(columns, "--filter", trimmed(text.substr(0, at)));
-    if (column.type() != ColumnType::text) return {column, *relation, number_in(value, text)};
+    std::string_view const name = trimmed(text.substr(0, at));
+    Column const& column = column_named(columns, "--filter", name);
+    // A heading stands above numbers in the unit that the table shows.
+    bool const is_by_heading = column.name != name && !column.key.ends_with(name) && is_headed(column, name);
+    if (column.type() != ColumnType::text)
+        return {column, *relation, number_in(value, text) / (is_by_heading ? column.factor : 1)};
     if (*relation == Relation::equal || *relation == Relation::different)
         return {column, *relation, std::string(value)};
     throw core::InputError(
@@ -107,14 +119,6 @@ bool holds(Condition const& condition, Row const& row) {
             return found != 0;
     }
     return false;
-}
-
-/// Whether the tables print a column below this heading.
-bool is_headed(Column const& column, std::string_view heading) {
-    auto const& terminal = column.terminal;
-    return (terminal && (terminal->heading == heading ||
-                         fmt::format("{} {}", terminal->heading, terminal->subheading) == heading)) ||
-           (column.report && column.report->heading == heading);
 }
 
 /// What to write instead of a name that no column has, or the heading of several ones.

@@ -34,7 +34,7 @@ struct Chain {
 class Walk {
   public:
     Walk(LogDensity const& density, std::vector<Bounds> const& bounds, SamplerSettings const& settings)
-        : density_(density), bounds_(bounds) {
+        : density_(density), bounds_(bounds), settings_(settings) {
         for (int c = 0; c < settings.chains; ++c) {
             std::seed_seq seed{static_cast<std::uint32_t>(settings.seed),
                                static_cast<std::uint32_t>(settings.seed >> 32U),
@@ -54,6 +54,8 @@ class Walk {
     void warm_up(int steps) {
         for (int i = 1; i <= steps; ++i) {
             for (Chain& chain : chains_) step(chain);
+            ++steps_;
+            tell();
             if (i == steps / 2 && !keeps_archive_) archive_.clear();
             if (i % steps_per_archive_entry != 0) continue;
             for (Chain const& chain : chains_) archive_.push_back(chain.at);
@@ -67,6 +69,8 @@ class Walk {
                 step(chains_[c]);
                 kept[c].insert(kept[c].end(), chains_[c].at.begin(), chains_[c].at.end());
             }
+            ++steps_;
+            tell();
         }
     }
 
@@ -77,6 +81,10 @@ class Walk {
         }
         double const value = density_(point);
         return std::isnan(value) ? impossible : value;
+    }
+
+    void tell() const {
+        if (settings_.progress) settings_.progress(steps_, settings_.warm_up + settings_.most_draws);
     }
 
     Point anywhere(Random& random) const {
@@ -91,6 +99,7 @@ class Walk {
         for (int i = 0; i < tries; ++i) {
             points.push_back(anywhere(chain.random));
             densities.push_back(density_at(points.back()));
+            tell();
         }
         double const highest = *std::ranges::max_element(densities);
         if (!std::isfinite(highest)) {
@@ -139,6 +148,8 @@ class Walk {
 
     LogDensity const& density_;
     std::vector<Bounds> const& bounds_;
+    SamplerSettings const& settings_;
+    int steps_ = 0;  ///< of each chain
     std::vector<Chain> chains_;
     std::vector<Point> archive_;
     bool keeps_archive_ = false;

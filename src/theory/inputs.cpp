@@ -114,7 +114,10 @@ PointMass Inputs::point() const {
         throw std::invalid_argument("the amplitude is not above 0");
     PointMass p{};
     p.friction = *get(Input::friction);
-    if (auto const tan_alpha = get(Input::tan_inclination)) p.tan_inclination = *tan_alpha;
+    if (auto const tan_alpha = get(Input::tan_inclination)) {
+        detail::require_range(std::abs(*tan_alpha) <= 1, "tan_inclination", *tan_alpha, "[-1, 1]");
+        p.tan_inclination = *tan_alpha;
+    }
     if (auto const alpha = get(Input::inclination_deg)) p.tan_inclination = tangent_of_inclination(*alpha);
     if (auto const tan_beta = get(Input::tan_vibration_angle)) p.tan_vibration_angle = *tan_beta;
     if (auto const beta = get(Input::vibration_angle_deg))

@@ -82,9 +82,9 @@ def drawn(name: str, file: pathlib.Path, draw_one: Callable[[], list[pathlib.Pat
     except Problem:
         raise
     except Exception as error:  # a file may be whole and still hold anything
-        cure = (f"{file} cannot be drawn ({one_line(error)}); delete it, and let vibrotrough make it again" if target.style is None
-                else f"{file} cannot be drawn in the style of {target.style} ({one_line(error)}); correct the style sheet or leave --style out")  # fmt: skip
-        print(shown(f"vibrotrough: {name} is left out: {cure}"),
+        if target.style is not None:
+            raise WrongInput(f"{name} cannot be drawn in the style of {target.style} ({one_line(error)}); correct the style sheet or leave --style out") from error
+        print(shown(f"vibrotrough: {name} is left out: {file} cannot be drawn ({one_line(error)}); delete it, and let vibrotrough make it again"),
               file=sys.stderr)
     plt.close("all")
     return []

@@ -2,6 +2,7 @@
 
 import dataclasses
 import io
+import logging
 import pathlib
 import unicodedata
 from collections.abc import Mapping
@@ -64,10 +65,17 @@ target = Print()
 
 def take_style(path: pathlib.Path) -> None:
     """Reads a style sheet once, so that its mistakes are told before anything is drawn."""
+    said: list[str] = []
+    log, listener = logging.getLogger("matplotlib"), logging.Handler()
+    listener.emit = lambda record: said.extend(record.getMessage().split("\n"))  # type: ignore[method-assign]
+    log.addHandler(listener)
     try:
         matplotlib.rc_params_from_file(path, fail_on_error=True, use_default_template=False)
     except (OSError, ValueError, KeyError) as error:
-        raise WrongInput(f"cannot use the style sheet {path} ({str(error).splitlines()[0]}); see matplotlib's style sheets") from error
+        said = str(error).splitlines()
+    log.removeHandler(listener)
+    if told := [line.strip() for line in said if line.strip()]:
+        raise WrongInput(f"cannot use the style sheet {path} ({told[0]}); see matplotlib's style sheets")
     target.style = path
 
 

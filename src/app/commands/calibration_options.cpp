@@ -4,7 +4,11 @@
 #include "app/python.hpp"
 #include "core/temporary_folder.hpp"
 
+#include <chrono>
+
 namespace vibrotrough::app {
+
+using namespace std::chrono_literals;
 
 char const* const calibration_help =
     R"(The first line of the file names its columns, in any order: stroke_mm or amplitude_mm (half the stroke); rpm or
@@ -113,6 +117,11 @@ learn::CalibrationSettings CalibrationOptions::settings() const {
     if (exact) result.discrepancy = learn::Discrepancy::none;
     result.common_error = quantities.value("--common-error").value_or(result.common_error);
     if (auto const seed = quantities.value("--seed")) result.sampler.seed = static_cast<std::uint64_t>(*seed);
+    result.sampler.progress = [next = std::chrono::steady_clock::now() + 2s](int steps, int most) mutable {
+        if (std::chrono::steady_clock::now() < next) return;
+        next = std::chrono::steady_clock::now() + 10s;
+        tell("calibrating: step {} of at most {}\n", steps, most);
+    };
     return result;
 }
 

@@ -44,6 +44,10 @@ void tell_shown(scenario::Campaign const& campaign, std::vector<evaluate::LayerF
     };
     auto const count = std::ranges::count_if(campaign.cases, is_tested);
     auto const all = std::ssize(campaign.cases);
+    if (std::ranges::none_of(tests, [](auto const& test) { return test.friction.has_value(); })) {
+        fmt::print("no friction was found, so that 'vibrotrough compare' has none to show\n");
+        return;
+    }
     fmt::print("'vibrotrough compare {}' shows the theory at this friction for {} of {} cases{}\n",
                core::shell_word(folder), count, all,
                count == all ? ""

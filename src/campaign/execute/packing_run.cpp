@@ -18,6 +18,11 @@
 namespace vibrotrough::campaign {
 namespace {
 
+/// s, for which an engine that was asked to stop may take to end its cycle.
+double patience_with(double seconds_per_cycle) {
+    return std::max(60.0, 4 * seconds_per_cycle);
+}
+
 /// Gives a file a second name, or copies it where the file system knows no hard links.
 void link_or_copy(std::filesystem::path const& from, std::filesystem::path const& to) {
     std::error_code failure;
@@ -159,8 +164,15 @@ void PackingRun::inspect() {
     seal();
     std::error_code missing;
     auto const size = std::filesystem::file_size(folder_ / "cycles.csv", missing);
-    if (missing || size == seen_size_) return;
+    auto const now = std::chrono::steady_clock::now();
+    if (missing || size == seen_size_) {
+        bool const is_stuck =
+            now - grown_ > std::chrono::duration<double>(patience_with(seconds_per_cycle()));
+        if (interrupted_ && is_stuck) process_->terminate();
+        return;
+    }
     seen_size_ = size;
+    grown_ = now;
     try {
         auto const interim = evaluate::estimate_so_far(*planned_.prepared, folder_);
         cycles_ = interim.cycles;
@@ -172,6 +184,7 @@ void PackingRun::inspect() {
 
 void PackingRun::interrupt(Stop stop) {
     interrupted_ = true;
+    grown_ = std::chrono::steady_clock::now();
     if (process_ && stop == Stop::with_checkpoint) {
         core::replace_file(folder_ / deck::control_file, deck::control_at_once());
     } else if (process_) {

@@ -37,7 +37,8 @@ class PackingRun {
     /// Inspects the cycles written so far, and seals a new checkpoint.
     void inspect();
 
-    /// Ends the engine; `on_end` then reports "interrupted".
+    /// Ends the engine; `on_end` then reports "interrupted". An engine that ends no cycle for a minute, or
+    /// for four cycles, is not waited for.
     void interrupt(Stop stop);
 
     /// The case.
@@ -94,6 +95,7 @@ class PackingRun {
     std::optional<evaluate::EvaluatedPacking> evaluated_;
     int sealed_cycle_ = 0;
     bool interrupted_ = false;
+    std::chrono::steady_clock::time_point grown_ = std::chrono::steady_clock::now();  ///< cycles.csv, last
     std::uintmax_t seen_size_ = 0;
     std::unique_ptr<engine::EngineProcess> process_;
     std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);

@@ -10,17 +10,17 @@ namespace {
 
 constexpr std::array requests{
     Cannot{
-        "skirt guard motion at_rest static_wall",
+        "skirt guard motion at_rest static_wall belt",
         "surfaces that move differently from the trough, such as a skirt at rest, cannot be simulated",
         "leave it out, or let it move with the trough (trough.side_wall_friction, or walls in trough.mesh)"},
-    Cannot{"rocking rotation_amplitude rotation_center pitch yaw tilt swing",
+    Cannot{"rocking rotation_amplitude rotation_center roll pitch yaw tilt swing",
            "a trough that rocks or turns cannot be simulated",
            "simulate places along it as cases of their own, each with its amplitude and vibration_angle"},
     Cannot{"hopper silo outlet bunker funnel", "hoppers and outlets in the floor cannot be simulated",
            "feed a stream of spheres from above with [feed] and mass_flow"},
     Cannot{"heap repose angle_of_repose pile slump", "the angle of a heap is neither an input nor a result",
            "calibrate the friction with measured speeds ('vibrotrough theory calibrate')"},
-    Cannot{"flake disc disk ellipsoid superquadric polyhedron cylinder fibre fiber needle",
+    Cannot{"flake disc disk ellipsoid superquadric polyhedron plate cylinder fibre fiber needle",
            "superquadrics, polyhedra and flexible grains cannot be simulated",
            "write shape = \"cube\" or \"rod\", or a clump of spheres of your own as a .csv file"},
     Cannot{"bond break breakage fracture crush attrition", "grains that break cannot be simulated",
