@@ -255,6 +255,8 @@ TEST(TroughMesh, WhatIsWrongIsSaid) {
     std::string const text = stl_text("a", short_vee());
     EXPECT_EQ(error(text.substr(0, text.find("endfacet"))),
               "it ends within triangle 1, so that a part of it is missing");
+    EXPECT_EQ(error(text.substr(0, text.find("endsolid"))),
+              "it ends without a line 'endsolid': the file was cut");
     EXPECT_THAT(error("solid a\nvertex 0,5 1,25 2\n"), HasSubstr("triangle 1 has decimal commas (0,5)"));
     EXPECT_EQ(error(stl_text("a", {{{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}}})),
               "its surface has no length or no width");

@@ -118,15 +118,18 @@ Solids read_text(std::string_view content) {
     if (!(text >> word) || lower(word) != "solid")
         throw std::invalid_argument("it is neither a text nor a binary STL");
     std::size_t part = begin_part(text, solids.parts), corner = 0;
-    bool is_whole = true;
+    bool is_whole = true, is_ended = true;
     Triangle triangle{};
     while (text >> word && triangles.size() <= most_triangles) {
         word = lower(word);
-        if (word == "endsolid" || word == "end") std::getline(text, word);
-        if (word == "endfacet" || word == "endsolid") is_whole = true;
+        if (word == "endsolid" || word == "end") {
+            is_ended = true;
+            std::getline(text, word);
+        }
+        if (word == "endfacet" || is_ended) is_whole = true;
         if (word == "solid") part = begin_part(text, solids.parts);
         if (word != "vertex") continue;
-        is_whole = false;
+        is_whole = is_ended = false;
         for (double& number : triangle[corner]) number = read_number(text, triangles.size() + 1);
         corner = (corner + 1) % 3;
         if (corner != 0) continue;
@@ -137,6 +140,7 @@ Solids read_text(std::string_view content) {
     if (!is_whole)
         throw std::invalid_argument(
             fmt::format("it ends within triangle {}, so that a part of it is missing", triangles.size()));
+    if (!is_ended) throw std::invalid_argument("it ends without a line 'endsolid': the file was cut");
     drop_empty_parts(solids);
     return solids;
 }
