@@ -68,6 +68,11 @@ double number_in(std::string_view text, std::string_view condition) {
     return number;
 }
 
+/// The key of a column without its section.
+std::string_view short_key(Column const& column) {
+    return std::string_view(column.key).substr(column.key.find('.') + 1);
+}
+
 /// Whether the tables print a column below this heading.
 bool is_headed(Column const& column, std::string_view heading) {
     auto const& terminal = column.terminal;
@@ -91,7 +96,7 @@ Condition parse(std::string_view text, std::span<Column const> columns) {
     std::string_view const name = trimmed(text.substr(0, at));
     Column const& column = column_named(columns, "--filter", name);
     // A heading stands above numbers in the unit that the table shows.
-    bool const is_by_heading = column.name != name && !column.key.ends_with(name) && is_headed(column, name);
+    bool const is_by_heading = column.name != name && short_key(column) != name && is_headed(column, name);
     if (column.type() != ColumnType::text)
         return {column, *relation, number_in(value, text) / (is_by_heading ? column.factor : 1)};
     if (*relation == Relation::equal || *relation == Relation::different)
@@ -153,7 +158,7 @@ Column const& column_named(std::span<Column const> columns, std::string_view opt
         if (found != columns.end()) return *found;
     }
     auto const is_short = [&](Column const& column) {
-        return column.swept >= 0 && column.key.substr(column.key.find('.') + 1) == name;
+        return column.swept >= 0 && short_key(column) == name;
     };
     auto const is_headed_so = [&](Column const& column) { return is_headed(column, name); };
     for (auto const& fits : {std::function<bool(Column const&)>(is_short), {is_headed_so}})

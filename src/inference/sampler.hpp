@@ -33,7 +33,8 @@ struct SamplerSettings {
     /// the first of them, and all of them stay in the archive. With many parameters no random point is near
     /// enough. They should be ten for each parameter, and scatter by a third of what the density does or so.
     std::vector<std::vector<double>> starts{};
-    /// Called after each step of all chains, with the steps so far and the most that there can be.
+    /// Called after each step of all chains and each point that is tried for a start, with the steps so far
+    /// and the most that there can be.
     std::function<void(int steps, int most)> progress{};
 };
 

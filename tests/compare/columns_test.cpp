@@ -133,6 +133,14 @@ struct SweptTable {
     std::vector<Row> rows;
 };
 
+// A heading stands above millimetres, a name above metres.
+TEST(SweptColumns, AreFilteredInTheUnitOfTheirName) {
+    SweptTable const table("[sweep]\n\"trough.amplitude\" = [\"3 mm\", \"5 mm\"]\n");
+    EXPECT_EQ(filtered(table.rows, "r>4", table.columns).size(), 1u);
+    EXPECT_EQ(filtered(table.rows, "amplitude>0.004", table.columns).size(), 1u);
+    EXPECT_EQ(filtered(table.rows, "amplitude_m>0.004", table.columns).size(), 1u);
+}
+
 // Whatever key is swept has a column in every view, and a name for --filter and --sort.
 TEST(SweptColumns, AreInEveryView) {
     SweptTable const table(

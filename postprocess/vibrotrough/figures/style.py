@@ -63,11 +63,21 @@ SMALLEST_FONT = 7.0  # points, of axes and legends in print
 target = Print()
 
 
+class Listener(logging.Handler):
+    """Keeps the lines that are logged."""
+
+    def __init__(self, lines: list[str]) -> None:
+        super().__init__()
+        self.lines = lines
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self.lines.extend(record.getMessage().split("\n"))
+
+
 def take_style(path: pathlib.Path) -> None:
     """Reads a style sheet once, so that its mistakes are told before anything is drawn."""
     said: list[str] = []
-    log, listener = logging.getLogger("matplotlib"), logging.Handler()
-    listener.emit = lambda record: said.extend(record.getMessage().split("\n"))  # type: ignore[method-assign]
+    log, listener = logging.getLogger("matplotlib"), Listener(said)
     log.addHandler(listener)
     try:
         matplotlib.rc_params_from_file(path, fail_on_error=True, use_default_template=False)
