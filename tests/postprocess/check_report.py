@@ -258,7 +258,7 @@ def check_both_theories(scripts, folder, overview):
         file.attrs["swept_keys"] = key
         file[f"swept/{key}"] = [0.2, 0.5]
         file[f"swept/{key}"].attrs["units"], file[f"swept/{key}"].attrs["description"] = "1", ""
-    for throw_numbers, plastic in (([2.1, 2.1], "solid: plastic theory"), ([2.1, 8.4], "lines: plastic theory")):
+    for throw_numbers, plastic in (([2.1, 2.1], "solid: plastic theory"), ([2.1, 8.4], "plastic theory")):
         with h5py.File(folder / "campaign.h5", "a") as file:
             file["throw_number"][...] = throw_numbers
         run_script(scripts, "vibrotrough.figures.draw", folder, "--only", "efficiency")

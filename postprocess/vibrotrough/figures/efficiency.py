@@ -8,6 +8,7 @@ thin line). Lines that belong to several colours are grey. Nothing of the theory
 """
 
 import csv
+import dataclasses
 import io
 import itertools
 import math
@@ -20,6 +21,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from ..campaign import open_campaign
@@ -37,6 +40,7 @@ LineKey = tuple[float, float | None, float | None]  # vibration angle and inclin
 UNCERTAIN = "not precise or not steady"
 BISTABLE = "bistable-or-slow"  # the outcome
 MOST_PANELS = 6
+BAND = 0.12  # opacity
 APART = 0.015  # of the axis: from series to series where several have a point at one place
 
 
@@ -143,7 +147,7 @@ class Series:
         inputs = [one for one in (self.colour_by, self.marker_by) if one]
         if inputs:
             return ", ".join(one.label(row) for one in inputs)
-        return f"\u03b2 = {math.degrees(self.columns['vibration_angle'][row]):.3g}\u00b0"
+        return f"DEM, \u03b2 = {math.degrees(self.columns['vibration_angle'][row]):.3g}\u00b0"
 
     def is_over_throw_number(self) -> bool:
         return self.over.key == "trough.throw_number"
@@ -152,6 +156,36 @@ class Series:
         """The line of the theory that belongs to a case."""
         angle, inclination = (same(math.degrees(self.columns[name][row])) for name in ("vibration_angle", "inclination"))
         return angle, inclination, same(float(self.columns["friction"][row]))
+
+
+@dataclasses.dataclass
+class Kind:
+    """A kind of line over the throw number. `alone` is its colour where the points have one; else it has those of the points."""
+
+    name: str
+    lines: Mapping[LineKey, Pair]
+    style: dict[str, Any]
+    alone: str
+    bands: Mapping[LineKey, NDArray[np.float64]] = dataclasses.field(default_factory=dict)  # half-widths
+
+    def handle(self, series: Series) -> Any:
+        """What stands for it in the legend."""
+        colour = GREY if series.colours.any() else self.alone
+        line = Line2D([], [], color=colour, **self.style)
+        return (Patch(facecolor=colour, alpha=BAND, linewidth=0), line) if self.bands else line
+
+
+def kinds_of_lines(theory_file: pathlib.Path, columns: Columns, plastic: bool) -> list[Kind]:
+    """What is drawn over the throw number beside the points, without what the file lacks."""
+    theory, style = read_theory(theory_file)
+    atlas = read_atlas(theory_file)
+    kinds = [
+        Kind("plastic theory" if plastic else "point-mass theory", theory, style, "#000000"),
+        Kind("rolling-layer law", read_rolling_layer(theory_file) if rotates(columns) else {}, {"linewidth": 0.8}, COLOURS[1]),
+        Kind("atlas, 95 % interval", {key: line[:2] for key, line in atlas.items()}, {"linewidth": 1.2, "linestyle": ":"}, COLOURS[2],
+             {key: line[2] for key, line in atlas.items()}),
+    ]
+    return [kind for kind in kinds if kind.lines]
 
 
 def colours_of(series: Series, line: LineKey, rows: list[int]) -> set[int]:
@@ -164,21 +198,23 @@ def colours_of(series: Series, line: LineKey, rows: list[int]) -> set[int]:
     return set()
 
 
-def draw_theory(axes: Axes, series: Series, rows: list[int], theory: dict[LineKey, Pair], style: dict[str, Any],
-                bands: Mapping[LineKey, NDArray[np.float64]] | None = None) -> None:
-    """Lines over the throw number, in the colour of their cases; grey where the cases have several. `bands` has half-widths."""
+def draw_lines(axes: Axes, series: Series, rows: list[int], kind: Kind) -> None:
+    """Lines over the throw number, in the colour of their cases; grey where the cases have several."""
     spare = int(series.colours.max(initial=0)) + 1
-    for line, (places, efficiency) in sorted(theory.items(), key=str):
+    for line, (places, efficiency) in sorted(kind.lines.items(), key=str):
         every, here = colours_of(series, line, list(range(series.count))), colours_of(series, line, rows)
         if every and not here:
             continue  # of another panel
         number = min(here, default=spare)
         spare += not here
         colour = GREY if len(here) > 1 else COLOURS[number % len(COLOURS)]
+        if here and not series.colours.any():
+            colour = kind.alone
         usual = "-" if len(here) > 1 else DASHES[number % len(DASHES)]
-        axes.plot(places, efficiency, color=colour, **{"linestyle": usual} | style)
-        if bands:
-            axes.fill_between(places, efficiency - bands[line], efficiency + bands[line], color=colour, alpha=0.12, linewidth=0)
+        axes.plot(places, efficiency, color=colour, **{"linestyle": usual} | kind.style)
+        if kind.bands:
+            half = kind.bands[line]
+            axes.fill_between(places, efficiency - half, efficiency + half, color=colour, alpha=BAND, linewidth=0)
 
 
 def draw_models_at_cases(axes: Axes, series: Series, rows: list[int], at_cases: dict[str, dict[str, Any]], models: Mapping[str, Model]) -> set[str]:
@@ -231,30 +267,31 @@ def mark_uncertain(axes: Axes, series: Series, members: list[int], branches: lis
         axes.scatter(*np.array(points).T, s=160, facecolors="none", edgecolors="#777777", label=UNCERTAIN, zorder=1)
 
 
-def add_legend(figure: Figure, grid: list[Axes], title: str) -> float:
-    """Above the axes, where no point can be mistaken for a part of it; the series first, then the ring. Returns the share of
-    the figure's height that it takes from panels.
+def add_legend(figure: Figure, grid: list[Axes], title: str, lines: dict[str, Any]) -> float:
+    """Above the axes, where no point can be mistaken for a part of it; the series first, then the lines and the ring. Returns the
+    share of the figure's height that it takes from panels.
     """
     found: dict[str, Any] = {}
     for axes in grid:
         for handle, name in zip(*axes.get_legend_handles_labels()):
             found.setdefault(name, handle)
-    names = sorted(found, key=lambda name: name == UNCERTAIN)
+    names = sorted(found | lines, key=lambda name: (name == UNCERTAIN, name in lines))
+    found |= lines
     across = characters_across(figure, points(9))
     title = textwrap.fill(title, across)
     fitting = max(1, across // (max(map(len, names), default=0) + 8))
     settings: dict[str, Any] = {"frameon": False, "fontsize": points(9), "title": title, "title_fontsize": points(9), "columnspacing": 1.2,
-                                "handletextpad": 0.4, "ncols": min(len(names), fitting, 3 if max(map(len, names), default=0) < 24 else 2)}
+                                "handletextpad": 0.4, "ncols": min(len(names), fitting, 3 if max(map(len, names), default=0) < 24 and len(names) != 4 else 2)}
     handles = [found[name] for name in names]
     if len(grid) == 1:
         grid[0].legend(handles, names, loc="lower center", bbox_to_anchor=(0.5, 1.0), **settings)
         return 0.0
     figure.legend(handles, names, loc="upper center", bbox_to_anchor=(0.5, 1.0), **settings)
-    lines = 1 - (-len(names) // settings["ncols"])
-    return float((0.15 + 0.2 * lines) / figure.get_size_inches()[1])
+    taken = 1 - (-len(names) // settings["ncols"])
+    return float((0.15 + 0.2 * taken) / figure.get_size_inches()[1])
 
 
-def label(figure: Figure, grid: list[Axes], series: Series, attributes: dict[str, Any], told: str) -> float:
+def label(figure: Figure, grid: list[Axes], series: Series, attributes: dict[str, Any], told: str, lines: dict[str, Any]) -> float:
     """Titles, legend and remarks; returns the share of the height that the legend takes."""
     columns = series.columns
     confidence = np.unique(columns["confidence"])
@@ -268,7 +305,7 @@ def label(figure: Figure, grid: list[Axes], series: Series, attributes: dict[str
     else:
         figure.supxlabel(series.over.title, fontsize=points(10))
         figure.supylabel(EFFICIENCY, fontsize=points(10))
-    taken = add_legend(figure, grid, f"points: DEM with {bars}{told}")
+    taken = add_legend(figure, grid, f"points: DEM with {bars}{told}", lines)
     without = np.count_nonzero(~np.isfinite(columns["efficiency"]))
     remarks = [f"{without} of {series.count} cases have no mean (not steady or bistable)"] if without else []
     if len(series.panels) > len(grid):
@@ -288,16 +325,13 @@ def draw_efficiency(directory: pathlib.Path, theory_file: pathlib.Path, output: 
     columns, units, attributes = read_campaign(directory / "campaign.h5")
     if len(columns.get("case", [])) == 0:
         raise Problem(f"{directory / 'campaign.h5'} holds no finished case; run the campaign first")
-    theory, style = read_theory(theory_file)
-    rolling = read_rolling_layer(theory_file) if rotates(columns) else {}
-    atlas = read_atlas(theory_file)
     series = Series(columns, units, attributes)
-    told, models = "", set[str]()
+    models = set[str]()
     swept = str(attributes.get("swept_keys", "")).split()
     rebounds = {name: one for name, one in RESTITUTION_MODELS.items() if name == "theory with restitution" and sweeps_restitution(swept)}
-    if series.is_over_throw_number():
-        told = (f"; lines: {'plastic' if rebounds else 'point-mass'} theory" if theory else "") + ("; thin: rolling-layer law" if rolling else "")
-        told += "; dots with a band: atlas, 95 %" if atlas else ""
+    kinds = kinds_of_lines(theory_file, columns, plastic=bool(rebounds))
+    if not series.is_over_throw_number():
+        kinds = []
     shown = list(itertools.islice(series.panels.items(), MOST_PANELS))
     across = 1 if is_narrow() else min(len(shown), 2)
     down = -(-len(shown) // across)
@@ -309,10 +343,8 @@ def draw_efficiency(directory: pathlib.Path, theory_file: pathlib.Path, output: 
         grid = list(axes.flat)
     for one, (name, rows) in zip(grid, shown):
         if series.is_over_throw_number():
-            draw_theory(one, series, rows, theory, style)
-            draw_theory(one, series, rows, rolling, {"linewidth": 0.8, "alpha": 0.7})
-            draw_theory(one, series, rows, {key: line[:2] for key, line in atlas.items()}, {"linewidth": 1.2, "linestyle": ":"},
-                        {key: line[2] for key, line in atlas.items()})
+            for kind in kinds:
+                draw_lines(one, series, rows, kind)
             models |= draw_models_at_cases(one, series, rows, at_cases or {}, rebounds)  # whose fine curve differs from case to case
         elif at_cases:
             models |= draw_models_at_cases(one, series, rows, at_cases, models_of(swept))
@@ -321,6 +353,7 @@ def draw_efficiency(directory: pathlib.Path, theory_file: pathlib.Path, output: 
         one.set_title(name, fontsize=points(9)) if len(shown) > 1 else None
     for one in grid[len(shown):]:
         one.set_visible(False)
-    taken = label(figure, grid[:len(shown)], series, attributes, told + "".join(f"; {words}" for words in [words_of_models(models, grid)] if words))
+    words = words_of_models(models, grid)
+    taken = label(figure, grid[:len(shown)], series, attributes, f"; {words}" if words else "", {kind.name: kind.handle(series) for kind in kinds})
     figure.tight_layout(rect=(0, 0.02, 1, 1 - taken))
     return save(figure, output)

@@ -52,8 +52,8 @@ std::string setup_lines(std::vector<std::string> const& lines) {
 
 /// Runs `work` as often as engines are to run at the same time. All go through the same list: the lock of a
 /// packing, which only one process gets, says who takes it, and whoever is done takes the next. `wait` ends
-/// early when a signal comes; where the process has ended by then, a second `wait` has its exit code (127 where
-/// the first one had it already).
+/// early when a signal comes; where the process has ended by then, a second `wait` has its exit code (127
+/// where the first one had it already).
 ///
 /// A task that is warned hands the warning on: each engine ends its cycle and writes a checkpoint. Then the
 /// task is queued again, without a marker that it ended.
