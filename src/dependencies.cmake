@@ -1,4 +1,4 @@
-# Looks for all libraries of dependencies.txt before a room does, and names everything that is missing in one message.
+# Looks for all libraries of dependencies.txt before a module does, and names everything that is missing in one message.
 # Included by CMake; as a script, it prints the table of the manual: cmake -P src/dependencies.cmake
 cmake_policy(VERSION 3.22)
 set(vibrotrough_dependency_file ${CMAKE_CURRENT_LIST_DIR}/dependencies.txt)
@@ -19,7 +19,7 @@ function(vibrotrough_dependency_fields row)
     endforeach()
 endfunction()
 
-# vibrotrough_look_for(RESULT HOW): what is wrong with a library: empty when it was found as the rooms will look for it.
+# vibrotrough_look_for(RESULT HOW): what is wrong with a library: empty when it was found as the modules will look for it.
 function(vibrotrough_look_for result how)
     set(wrong "not found")
     list(POP_FRONT how kind subject)
@@ -30,7 +30,7 @@ function(vibrotrough_look_for result how)
         find_library(${how} ${subject})
         set(found ${${how}})
     else()
-        # The same settings as in the rooms (src/theory and src/store say why), because what is found here is remembered.
+        # The same settings as in the modules (src/theory and src/store say why), because what is found here is remembered.
         set(HDF5_PREFER_PARALLEL OFF)
         set(CMAKE_FIND_PACKAGE_SORT_ORDER NAME)
         set(CMAKE_FIND_PACKAGE_SORT_DIRECTION ASC)

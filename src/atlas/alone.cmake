@@ -1,4 +1,4 @@
-# The atlas for a layer that is given as numbers (value.hpp, unknown.hpp), with what it needs of other rooms, as sources: for what is
+# The atlas for a layer that is given as numbers (value.hpp, unknown.hpp), with what it needs of other modules, as sources: for what is
 # compiled apart from the program, which are the page for browsers and the module for Python.
 set(atlas_root ${CMAKE_CURRENT_LIST_DIR}/../..)
 cmake_path(NORMAL_PATH atlas_root)

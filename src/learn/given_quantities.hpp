@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-// Internal to this room.
+// Internal to this module.
 namespace vibrotrough::learn {
 
 /// The quantities of a model of measured speeds: some are free, some fixed, and angles may be measured.

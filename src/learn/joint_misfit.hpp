@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-// Internal to this room.
+// Internal to this module.
 namespace vibrotrough::learn {
 
 /// Measured speeds against a model, as one normal distribution.

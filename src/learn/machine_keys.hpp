@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string_view>
 
-// Internal to this room.
+// Internal to this module.
 namespace vibrotrough::learn {
 
 inline constexpr double degree = std::numbers::pi / 180;  ///< rad

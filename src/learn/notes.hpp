@@ -11,7 +11,7 @@
 
 namespace vibrotrough::learn {
 
-// The notes of this room, from their text alone. The parse functions throw core::note::Fault when the text is
+// The notes of this module, from their text alone. The parse functions throw core::note::Fault when the text is
 // not such a note.
 
 /// learn.json. @returns the half-width that was wanted of each case, by its id, > 0

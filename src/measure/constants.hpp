@@ -3,7 +3,7 @@
 #include <limits>
 #include <numbers>
 
-// Internal to this room.
+// Internal to this module.
 namespace vibrotrough::measure {
 
 inline constexpr double two_pi = 2 * std::numbers::pi;                   ///< rad, a cycle

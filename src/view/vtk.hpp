@@ -5,7 +5,7 @@
 namespace vibrotrough::view {
 
 /// Whether this program was built with VTK, which writes the files for ParaView (the CMake option
-/// VIBROTROUGH_VIEW). Without it, all functions of this room that read frames or write files throw what
+/// VIBROTROUGH_VIEW). Without it, all functions of this module that read frames or write files throw what
 /// require_vtk() throws.
 bool has_vtk();
 

@@ -7,7 +7,7 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-/// The files that this room reads and writes with VTK.
+/// The files that this module reads and writes with VTK.
 namespace vibrotrough::view {
 
 /// Reads an STL file, ASCII or binary. @throws InputError if it does not contain triangles; MissingError if

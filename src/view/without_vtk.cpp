@@ -1,4 +1,4 @@
-// The room in a program without VTK, in place of all its other files.
+// The module in a program without VTK, in place of all its other files.
 
 #include "core/error.hpp"
 #include "view/frames.hpp"

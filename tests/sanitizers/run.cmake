@@ -1,16 +1,16 @@
 # cmake -DSOURCE=... -DFOLDER=... -DCTEST=... -P run.cmake
-set(rooms core theory inference scenario prepare atlas deck engine measure store evaluate campaign compare archive learn)
+set(modules core theory inference scenario prepare atlas deck engine measure store evaluate campaign compare archive learn)
 set(targets campaign_replay campaign_files_replay engine_output_replay notes_replay result_replay)
-foreach(room IN LISTS rooms)
-    list(APPEND targets ${room}_tests)
+foreach(module IN LISTS modules)
+    list(APPEND targets ${module}_tests)
 endforeach()
-list(JOIN rooms "|" labels)
+list(JOIN modules "|" labels)
 cmake_host_system_information(RESULT processors QUERY NUMBER_OF_LOGICAL_CORES)
 execute_process(COMMAND_ERROR_IS_FATAL ANY
     COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${FOLDER} -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1
             -DVIBROTROUGH_SANITIZE=ON -DVIBROTROUGH_VIEW=OFF -DBUILD_TESTING=ON)
 execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND ${CMAKE_COMMAND} --build ${FOLDER} --target ${targets})
 set(ENV{LSAN_OPTIONS} "suppressions=${CMAKE_CURRENT_LIST_DIR}/leaks.txt:print_suppressions=0")
-# Some tests with the label of a room are those of the whole program, which is not built here.
+# Some tests with the label of a module are those of the whole program, which is not built here.
 execute_process(COMMAND_ERROR_IS_FATAL ANY
     COMMAND ${CTEST} --test-dir ${FOLDER} --output-on-failure --parallel ${processors} -L "^(${labels}|fuzz)$" -E "InTheDocs|ReadByH5py")

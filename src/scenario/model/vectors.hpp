@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Vectors of triangles. Internal to this room.
+// Vectors of triangles. Internal to this module.
 
 namespace vibrotrough::scenario {
 

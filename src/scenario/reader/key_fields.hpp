@@ -12,7 +12,7 @@
 #include <fmt/ranges.h>
 
 // How a row of the table of keys says where its value is: field<&Scenario::trough, &Trough::friction>. The
-// type of the member decides how it is read and written. Internal to this room.
+// type of the member decides how it is read and written. Internal to this module.
 
 namespace vibrotrough::scenario {
 

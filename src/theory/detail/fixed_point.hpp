@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-// The velocity that repeats after a period. Internal to this room.
+// The velocity that repeats after a period. Internal to this module.
 namespace vibrotrough::theory::detail {
 
 /// Eqs. 17, 18: the landing reduces the slip velocity by mu tan(beta) times the approach velocity, at most to

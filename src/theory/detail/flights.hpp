@@ -5,7 +5,7 @@
 #include <vector>
 
 // The motion of a conveyor's mass normal to the trough, with rebounds, drag and harmonics. Internal to this
-// room.
+// module.
 namespace vibrotrough::theory::detail {
 
 /// A flight, and the contact that may follow it. Rates are relative to the trough, in omega r sin(beta).

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-// Internal to this room.
+// Internal to this module.
 namespace vibrotrough::theory::detail {
 
 /// (1 - exp(-kappa h)) / kappa and its integral from 0 to h, beside exp(-kappa h): a velocity with

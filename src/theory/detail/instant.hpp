@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <numbers>
 
-// What the solvers of all models share: times, velocities and phases. Internal to this room.
+// What the solvers of all models share: times, velocities and phases. Internal to this module.
 namespace vibrotrough::theory::detail {
 
 inline constexpr double pi = std::numbers::pi;

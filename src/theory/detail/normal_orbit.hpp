@@ -2,7 +2,7 @@
 
 #include "theory/detail/flights.hpp"
 
-// Internal to this room.
+// Internal to this module.
 namespace vibrotrough::theory::detail {
 
 inline constexpr std::size_t never = static_cast<std::size_t>(-1);

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-// Internal to this room.
+// Internal to this module.
 namespace vibrotrough::theory::detail {
 
 /// The phases of a motion that is being followed, in order.

@@ -7,7 +7,7 @@
 #include <vector>
 
 // The motion of a conveyor's mass along the trough over the flights and contacts of its normal motion.
-// Internal to this room.
+// Internal to this module.
 namespace vibrotrough::theory::detail {
 
 /// A flight and its landing as they act on the motion along the trough: all that does not depend on the slip

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-// Internal to this room.
+// Internal to this module.
 namespace vibrotrough::theory::detail {
 
 /// The shortest text from which the same number is read back.

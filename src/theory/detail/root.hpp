@@ -10,7 +10,7 @@
 #include <boost/math/tools/roots.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
-// The ends of phases as roots. Internal to this room.
+// The ends of phases as roots. Internal to this module.
 namespace vibrotrough::theory::detail {
 
 /// A function at one time and its first two derivatives.

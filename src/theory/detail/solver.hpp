@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-// Internal to this room.
+// Internal to this module.
 namespace vibrotrough::theory::detail {
 
 /// The efficiency of many conveyors, one after another; memory is reused, and so is what they share.

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-// Periodic functions of the drive and their zeros. Internal to this room.
+// Periodic functions of the drive and their zeros. Internal to this module.
 namespace vibrotrough::theory::detail {
 
 /// sine sin(order t) + cosine cos(order t)

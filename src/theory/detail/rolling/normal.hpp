@@ -5,7 +5,7 @@
 
 #include <vector>
 
-// The normal motion of a rolling layer. Internal to this room.
+// The normal motion of a rolling layer. Internal to this module.
 namespace vibrotrough::theory::detail {
 
 /// A part of the normal motion in which the layer touches the trough all the time, or flies all the time.

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-// What happens within one phase of a rolling layer. Internal to this room.
+// What happens within one phase of a rolling layer. Internal to this module.
 namespace vibrotrough::theory::detail {
 
 /// A time within a phase, and all functions of which the motion is a sum.

@@ -2,7 +2,7 @@
 
 #include "theory/detail/rolling/walk.hpp"
 
-// The motion of a rolling layer that repeats. Internal to this room.
+// The motion of a rolling layer that repeats. Internal to this module.
 namespace vibrotrough::theory::detail {
 
 /// Finds the state that repeats for one layer after another.

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-// The motion of a rolling layer along the trough. Internal to this room.
+// The motion of a rolling layer along the trough. Internal to this module.
 namespace vibrotrough::theory {
 
 /// A part of the motion with one set of linear equations.
