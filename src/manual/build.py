@@ -118,14 +118,30 @@ def quantities(source: pathlib.Path, program: str) -> None:
     write(source, "parts/outcomes.md", outcomes)
 
 
+def plant_title(column: str) -> str:
+    """A column's name and unit as a heading: size_low_mm is "size [mm]"."""
+    name = column.replace("_low", "")
+    unit = next((one for one in ("kg_mm", "mm", "kN", "kW") if name.endswith("_" + one)), None)
+    if unit:
+        return f"{name.removesuffix('_' + unit).replace('_', ' ')} [{unit.replace('_', ' ')}]"
+    return {"bulk_density": "bulk density [kg/m\u00b3]", "rpm": "speed [1/min]", "rolling": "rolling friction"}.get(name, name.replace("_", " "))
+
+
+def between(row: dict[str, str], column: str) -> str:
+    """What a row has in a column, or in one for the low end of a range and the next for the high one."""
+    high = row.get(column.replace("_low", "_high"), "") if "_low" in column else ""
+    return f"{row[column]} to {high}" if high else row[column]
+
+
 def plant_tables(source: pathlib.Path) -> None:
     """The page of the tables that come with `vibrotrough design`: their comments as prose, their rows."""
     parts = ["# Materials, drives and motors\n\nThese tables come with the program.\n"]
     for name in ("materials", "drives", "motors"):
         lines = (ROOT / f"input_templates/plant/{name}.csv").read_text(encoding="utf-8").splitlines()
         prose = " ".join(line.removeprefix("#").strip() for line in lines if line.startswith("#"))
-        header, *rows = csv.reader(line for line in lines if not line.startswith("#"))
-        table = [header, ["---"] * len(header), *rows]
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        shown = [{plant_title(key): between(row, key) for key in row if "_high" not in key} for row in rows]
+        table = [list(shown[0]), ["---"] * len(shown[0]), *(list(row.values()) for row in shown)]
         parts.append(f"## {name.capitalize()}\n\n{prose}\n\n" + "".join(f"| {' | '.join(row)} |\n" for row in table))
     write(source, "reference/plant.md", "\n".join(parts))
 
