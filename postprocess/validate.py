@@ -33,6 +33,8 @@ class Case:
             raise SystemExit(message) from error
         self.long: bool = about.get("long", False)
         self.figures: list[str] = about.get("figures", [])
+        # What keeps its findings from being pre-registered, such as "limits set after a first look".
+        self.caveat: str = about.get("caveat", "")
 
     def stored_verdict(self) -> dict[str, Any] | None:
         """The case's verdict.json, or None if it has not been judged."""
@@ -120,7 +122,7 @@ def overview(cases: list[Case]) -> str:
     for case in cases:
         verdict = case.stored_verdict()
         count = findings_count(verdict["findings"]) if verdict else ""
-        count = f"[{count}](findings.md#{case.name})" if count else ""
+        count = f"[{count}](findings.md#{case.name})" + (f", but {case.caveat}" if case.caveat else "") if count else ""
         lines.append(f"| [`{case.name}`]({case.name}/README.md){' (long)' if case.long else ''} | {case.title} | {verdict_text(verdict)} | "
                      f"{count} | {verdict['date'] if verdict else ''} |\n")
     return "".join(lines)
