@@ -118,7 +118,8 @@ constexpr std::array rows_of_plans{
         field<&Scenario::engine, &EnginePlan::cohesion>.unless_default()},
     Key{"engine.tangential_damping", truth, "", 0, 1, "true or false", "", 0.0, "true",
         "damping of the tangential spring of a contact, added to Coulomb's limit. An impact at an angle then "
-        "keeps more of its speed along the trough; layers change by about 0.01 (validation/history)",
+        "keeps more of its speed along the trough; six layers had an efficiency higher by 0.002 +- 0.006 in "
+        "the mean (validation/history)",
         field<&Scenario::engine, &EnginePlan::tangential_damping>.unless_default()},
     Key{"engine.templates", texts, "", 0, 0, "1 to 30 names of .mustache files in the same folder", "",
         optional, "[\"contact.mustache\"]",
