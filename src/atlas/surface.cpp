@@ -91,6 +91,10 @@ SurfaceValue Surface::nearly_at(Place const& place, double theory) const {
     return {mean, deviations_in_half_width * sd};
 }
 
+double Surface::near_efficiency_at(Place const& place, double theory) const {
+    return process_.mean(scaled(place), trend_at(theory));
+}
+
 SurfaceValue Surface::difference(Place const& place, double theory, Place const& other,
                                  double theory_there) const {
     Eigen::VectorXd const xa = scaled(place), ha = trend_at(theory);

@@ -117,6 +117,9 @@ class Surface {
     /// at() by the process of the largest likelihood alone, which takes a twentieth of the time.
     SurfaceValue nearly_at(Place const& place, double theory) const;
 
+    /// The efficiency alone of nearly_at().
+    double near_efficiency_at(Place const& place, double theory) const;
+
     /// What the surface says of the efficiency at one place minus that at another, of which it knows more
     /// than of either: what both have in common does not widen the interval.
     SurfaceValue difference(Place const& place, double theory, Place const& other, double theory_there) const;

@@ -119,6 +119,12 @@ std::optional<double> efficiency_at(Place const& place) {
     return surface().efficiency_at(place, *trend);
 }
 
+std::optional<double> near_efficiency_at(Place const& place) {
+    auto const trend = trend_at(place);
+    if (!trend) return {};
+    return surface().near_efficiency_at(place, *trend);
+}
+
 std::optional<SurfaceValue> difference_between(Place const& place, Place const& other) {
     auto const trend = trend_at(place), trend_there = trend_at(other);
     if (!trend || !trend_there) return {};

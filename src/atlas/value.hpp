@@ -48,6 +48,9 @@ std::optional<SurfaceValue> near_value_at(Place const& place);
 /// The efficiency alone of value_at(), which takes a fraction of the time.
 std::optional<double> efficiency_at(Place const& place);
 
+/// The efficiency alone of near_value_at().
+std::optional<double> near_efficiency_at(Place const& place);
+
 /// What the atlas says of the efficiency at one place minus that at another. The half-width is that of the
 /// surface alone: numerical errors are common to both places, and a trend does not scatter as layers do.
 std::optional<SurfaceValue> difference_between(Place const& place, Place const& other);

@@ -93,6 +93,10 @@ class AtlasSpeeds : public SpeedModel {
                                numerics / atlas::deviations_in_half_width, open.sources};
     }
 
+    std::optional<double> near_efficiency(DesignLayer const& layer, double friction) override {
+        return atlas::near_efficiency_at(place_of(layer.drive, layer.depth / diameter_, friction));
+    }
+
     Whereabouts where(theory::Drive const& drive, double friction,
                       std::optional<double> depth) const override {
         atlas::Place const place = place_of(drive, depth.value_or(1), friction);
@@ -150,7 +154,7 @@ class AtlasSpeeds : public SpeedModel {
             auto const [low, high] = range_of(one.input);
             double const sd = deviation_of(one.value, [&, low = low, high = high](double value) {
                 place[one.input] = std::clamp(value, low, high);
-                return is_near ? near_efficiency_at(place) : atlas::efficiency_at(place);
+                return is_near ? atlas::near_efficiency_at(place) : atlas::efficiency_at(place);
             });
             place[one.input] = one.value.mean;
             last.sources.push_back({one.title(), sd});
@@ -159,11 +163,6 @@ class AtlasSpeeds : public SpeedModel {
         for (OwnSource const& one : last.sources) squares += one.sd * one.sd;
         last.sd = std::sqrt(squares);
         return last;
-    }
-
-    static std::optional<double> near_efficiency_at(atlas::Place const& place) {
-        auto const value = atlas::near_value_at(place);
-        return value ? std::optional(value->efficiency) : std::nullopt;
     }
 
     std::vector<OpenInput> inputs_;

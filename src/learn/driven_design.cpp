@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -12,11 +13,19 @@ namespace vibrotrough::learn {
 namespace {
 
 constexpr int most_repetitions = 12;
-constexpr double same_stroke = 1e-3;  // relative
+constexpr double same_stroke = 2e-3;  // relative: a layer is rounded up to 0.1 mm, which moves it by so much
 constexpr double steepest = 0.8;      // slope of a curve by which a step is lengthened
 
 Uncertain uncertain(atlas::Bounded const& number) {
     return {number.value, number.half_width / atlas::deviations_in_half_width};
+}
+
+/// kg, of the material on the trough, roughly: layers move at about half of the trough's largest speed.
+double material_guessed(DesignTask const& task) {
+    double const frequency = task.space.frequency.low;
+    double const trough_speed = 2 * std::numbers::pi * frequency * amplitude_of(*task.machine, frequency, 0);
+    double const depth = task.mass_flow / (task.bulk_density * task.width * trough_speed / 2);
+    return material_on(task, std::clamp(depth, task.depth.low, task.depth.high));
 }
 
 /// The stroke to try next. Under a heavy layer the stroke that the exciter gives approaches its end in many
@@ -70,7 +79,8 @@ ChosenDesign design_with_exciter(DesignTask const& task,
                                  std::function<ChosenDesign(DesignTask const&)> const& find) {
     DesignTask one = task;
     MovedMachine& machine = *one.machine;
-    double material = 0, amplitude = amplitude_of(machine, task.space.frequency.low, material);
+    double material = material_guessed(task);
+    double amplitude = amplitude_of(machine, task.space.frequency.low, material);
     NextStroke next;
     for (int i = 0; i < most_repetitions; ++i) {
         one.space.amplitude = {amplitude, amplitude};

@@ -47,9 +47,9 @@ double spread_by(DesignModel const& model, DesignLayer const& layer, double theo
     for (UncertainNode const& node : nodes_of({layer.drive.*number, sd})) {
         DesignLayer other = layer;
         other.drive.*number = std::max(1e-6, node.value);
-        auto const value = model.at(other, friction, Precision::near);
-        if (!value) continue;
-        double const speed = value->efficiency * other.drive.trough_speed();
+        auto const efficiency = model.speeds->near_efficiency(other, friction);
+        if (!efficiency) continue;
+        double const speed = *efficiency * other.drive.trough_speed();
         known += node.share;
         sum += node.share * speed;
         squares += node.share * speed * speed;

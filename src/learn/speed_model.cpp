@@ -55,6 +55,9 @@ class RollingLayerSpeeds : public SpeedModel {
         double const sd = spread(layer.drive);
         return ModelEfficiency{*eta, sd, 0, {{name_, sd}}};
     }
+    std::optional<double> near_efficiency(DesignLayer const& layer, double friction) override {
+        return efficiency(rolling_friction_.mean, point_of(layer.drive, friction));
+    }
     Whereabouts where(theory::Drive const& drive, double friction,
                       std::optional<double> depth) const override {
         Whereabouts found{theory::tested_excess(drive)};

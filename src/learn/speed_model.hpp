@@ -56,6 +56,11 @@ class SpeedModel {
     /// The velocity efficiency of a layer at a friction; nothing when the material has no steady speed.
     virtual std::optional<ModelEfficiency> speed(DesignLayer const& layer, double friction,
                                                  Precision precision) = 0;
+    /// The efficiency alone of speed(), nearly: for a model that then has less to do.
+    virtual std::optional<double> near_efficiency(DesignLayer const& layer, double friction) {
+        auto const value = speed(layer, friction, Precision::near);
+        return value ? std::optional(value->efficiency) : std::nullopt;
+    }
     /// @param depth  of the layer, in diameters of its grains, if it is known
     virtual Whereabouts where(theory::Drive const& drive, double friction,
                               std::optional<double> depth) const = 0;
