@@ -2,6 +2,7 @@
 
 #include "core/csv.hpp"
 #include "core/error.hpp"
+#include "core/nearest.hpp"
 #include "core/quantity.hpp"
 #include "core/typed_unit.hpp"
 #include "scenario/model/run_settings.hpp"
@@ -39,7 +40,7 @@ class ValueReader {
         fail(node,
              are_files ? "is one file, and a list is given"
                        : fmt::format("{} is not an allowed value", written(node)),
-             fmt::format("{}; allowed: {}", write_instead(key_), range_of(key_)));
+             fmt::format("{}; allowed: {}", write_meant(word), range_of(key_)));
     }
 
     std::string name(toml::node const& node) const {
@@ -149,6 +150,24 @@ class ValueReader {
         if (name.ends_with("friction")) slip = theory::slip_of_friction(value);
         if (name.starts_with("tan_")) slip = theory::slip_of_tangent(value);
         return slip.empty() ? "" : fmt::format(" ({})", slip);
+    }
+
+    /// The allowed word that is the same unit or is spelt nearly so; otherwise the example of the key.
+    std::string write_meant(std::string const& word) const {
+        auto const known = choices(key_);
+        std::string_view meant = core::nearest_word(lower(word), known);
+        for (std::string_view const unit : known)
+            if (are_same_length(word, std::string(unit))) meant = unit;
+        return meant.empty() ? write_instead(key_)
+                             : fmt::format("write {} = \"{}\"", last_name(key_.path), meant);
+    }
+
+    static bool are_same_length(std::string const& one, std::string const& other) {
+        try {
+            return core::parse_quantity("1 " + one, "m") == core::parse_quantity("1 " + other, "m");
+        } catch (core::QuantityError const&) {
+            return false;
+        }
     }
 
     /// The file lies in the folder of the campaign file, and its name is harmless to engine and shell.
