@@ -236,6 +236,17 @@ std::vector<std::string> remarks_on(Waveform const& w, Record const& record, Har
     return all;
 }
 
+/// A sine, a cosine and a mean need three samples in a cycle.
+void check_sampling(Record const& record, double frequency) {
+    constexpr double needed = 3, good = 20;
+    double const per_cycle = 1 / (frequency * record.spacing);
+    if (per_cycle > needed - 1e-6) return;
+    throw std::invalid_argument(fmt::format(
+        "it is sampled too coarsely: with a sample every {:.4g} ms, a cycle of {:.4g} Hz has only "
+        "{:.3g} of them, and at least {} are needed; record one every {:.2g} ms, so that it has {}",
+        1e3 * record.spacing, frequency, per_cycle, needed, 1e3 / (good * frequency), good));
+}
+
 double whole_cycles(Record const& record, double frequency) {
     return std::max(1.0, std::floor(frequency * record.spacing * static_cast<double>(record.count()) + 0.01));
 }
@@ -262,6 +273,7 @@ std::shared_ptr<Waveform const> read_waveform(NamedFile file) {
     drop_first_of_next(record);
     Waveform w{std::move(file)};
     w.frequency = fundamental_of(record);
+    check_sampling(record, w.frequency);
     double const cycles = whole_cycles(record, w.frequency);
     Harmonics found = harmonics_of(record, w.frequency, cycles);
     double const least = 1e-6 * largest_term(found.all);
