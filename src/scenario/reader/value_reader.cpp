@@ -2,7 +2,6 @@
 
 #include "core/csv.hpp"
 #include "core/error.hpp"
-#include "core/nearest.hpp"
 #include "core/quantity.hpp"
 #include "core/typed_unit.hpp"
 #include "scenario/model/run_settings.hpp"
@@ -152,14 +151,12 @@ class ValueReader {
         return slip.empty() ? "" : fmt::format(" ({})", slip);
     }
 
-    /// The allowed word that is the same unit or is spelt nearly so; otherwise the example of the key.
+    /// The allowed word that is the same unit, "inch" for "in"; otherwise the example of the key.
     std::string write_meant(std::string const& word) const {
-        auto const known = choices(key_);
-        std::string_view meant = core::nearest_word(lower(word), known);
-        for (std::string_view const unit : known)
-            if (are_same_length(word, std::string(unit))) meant = unit;
-        return meant.empty() ? write_instead(key_)
-                             : fmt::format("write {} = \"{}\"", last_name(key_.path), meant);
+        for (std::string_view const unit : choices(key_))
+            if (are_same_length(word, std::string(unit)))
+                return fmt::format("write {} = \"{}\"", last_name(key_.path), unit);
+        return write_instead(key_);
     }
 
     static bool are_same_length(std::string const& one, std::string const& other) {
