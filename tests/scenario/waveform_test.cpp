@@ -1,4 +1,5 @@
 #include "scenario/model/recorded_motion.hpp"
+#include "scenario/model/scenario.hpp"
 
 #include <cmath>
 #include <functional>
@@ -169,6 +170,11 @@ TEST(Waveform, ARecordThatIsSampledTooCoarselyIsNamed) {
     EXPECT_THAT(
         error(record(along, normal, {.rate = 62.5})),
         AllOf(HasSubstr("every 16 ms, a cycle of 25 Hz has only 2.5 of them"), HasSubstr("one every 2 ms")));
+    // Below two, the frequency of the trough tells.
+    Trough trough{};
+    trough.frequency = 25;
+    EXPECT_THAT(find_fault(*read(record(along, normal, {.rate = 32})), trough)->wrong,
+                HasSubstr("of whose cycle it has only 1.28 samples: sample it more often"));
     auto const sine = [](double t) { return 1e-3 * std::sin(omega * t); };
     EXPECT_NEAR(read(record(sine, normal, {.rate = 77}))->motion.along[0].amplitude, 1e-3, 1e-6);
 }
