@@ -228,12 +228,15 @@ bool CsvReader::split() {
 bool CsvReader::next() {
     if (columns_.empty() || !find_row() || !split()) return false;
     count_row();
-    if (cells_.size() != columns_.size())
-        fail(fmt::format("expected {} values, one per column, but found {}", columns_.size(), cells_.size()),
-             separator_ == ',' && cells_.size() > columns_.size()
-                 ? "write one value per column; numbers with a decimal comma need a semicolon or a tab "
-                   "between the cells"
-                 : "write one value per column");
+    if (cells_.size() != columns_.size()) {
+        bool const are_split =
+            separator_ == ',' && cells_.size() > columns_.size() && row_.find('.') == std::string_view::npos;
+        fail(fmt::format("expected {} values, one per column, but found {}{}", columns_.size(), cells_.size(),
+                         are_split ? ": its numbers seem to have decimal commas, but commas separate its "
+                                     "columns, too; separate the columns with semicolons"
+                                   : ""),
+             "write one value per column");
+    }
     if (has_decimal_commas_) refuse_thousands();
     return true;
 }

@@ -118,6 +118,12 @@ TEST(Csv, TheHeaderDecidesOnTheSeparator) {
         EXPECT_NE(number_error_of(wrong).find("is not a finite number"), std::string::npos) << wrong;
     EXPECT_NE(number_error_of("a,b\n\"1,5\",2\n").find("'1,5' is not a finite number"), std::string::npos)
         << "a decimal comma needs ; between the cells";
+    EXPECT_THAT(
+        number_error_of("a,b\n0,0\n0,5,-1,5e-3\n"),
+        testing::HasSubstr("3: expected 2 values, one per column, but found 4: its numbers seem to have "
+                           "decimal commas, but commas separate its columns, too; separate the columns "
+                           "with semicolons"));
+    EXPECT_THAT(number_error_of("a,b\n0.5,1,2\n"), testing::Not(testing::HasSubstr("decimal commas")));
 }
 
 TEST(Csv, CommentsAndBlankLinesAreSkippedOnRequestOnly) {

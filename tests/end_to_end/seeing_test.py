@@ -113,7 +113,7 @@ class Seeing(EndToEndTest):
         self.assertIn(b"14px", styled["efficiency.svg"])
         self.assertNotIn(b"14px", plain["efficiency.svg"])
         self.assertEqual([struct.unpack(">I", one["efficiency.png"][16:20])[0] for one in (plain, styled)], [1080, 540])
-        style.write_text("font.size: large letters\n")  # of an unknown key matplotlib 3.6 only warns
+        style.write_text("font.size: large letters\n")
         for option, value, told in (("--style", style, "cannot use the style sheet"), ("--style", self.folder / "none", "write the path of a style sheet"),
                                     ("--width", "3 columns", "one-column"), ("--width", "1 mm", "50 mm"), ("--format", "jpg", "jpg")):  # fmt: skip
             done = self.call("plot", self.output, *general, option, value)

@@ -300,6 +300,16 @@ class Trust(EndToEndTest):
         done = self.call("work", self.output, "--task-list", tasks, "--index", 0)
         self.assert_refused(done, 3, f"engine: {other}", "not the binary that the campaign was planned with")
 
+    def test_a_campaign_that_goes_on_with_another_binary_says_so(self):
+        campaign = self.finished_campaign(ONE)
+        told = "is another binary of the same version than that of the results in"
+        facts = json.loads((self.output / "engine.json").read_text())
+        for changes, is_told in (({}, False), ({"binary_sha256": "0" * 64}, True), ({"binary_sha256": "0" * 64, "version": "LIGGGHTS 0"}, False)):
+            (self.output / "engine.json").write_text(json.dumps(facts | changes))
+            done = self.call("run", campaign, "--output", self.output, "--liggghts", self.engine)
+            self.assertEqual(f"{self.engine} {told} {self.output}" in done.stderr, is_told, done.stderr)
+            self.assertEqual(json.loads((self.output / "engine.json").read_text())["binary_sha256"], facts["binary_sha256"])
+
     def test_the_folder_of_a_packing_has_one_writer(self):
         # A wrapper that does not exec, as containers have one: the kernel ends it with the driver, but not its child.
         real = shutil.which("liggghts")

@@ -114,6 +114,24 @@ TEST(Sampler, ManyParametersNeedStartsAboutThePeak) {
                  std::invalid_argument);
 }
 
+// Told while starts are tried, and then once for each step of all chains, up to the most that there can be.
+TEST(Sampler, ProgressIsToldAtEveryStep) {
+    SamplerSettings settings;
+    settings.warm_up = 100;
+    settings.draws = 50;
+    settings.most_draws = 200;
+    settings.least_ess = 1e6;  // never reached
+    settings.points_per_start = 3;
+    std::vector<int> told, expected(static_cast<std::size_t>(settings.chains * settings.points_per_start), 0);
+    for (int step = 1; step <= 300; ++step) expected.push_back(step);
+    settings.progress = [&](int steps, int most) {
+        told.push_back(steps);
+        EXPECT_EQ(most, 300);
+    };
+    sample([](std::span<double const>) { return 0.0; }, {{0, 1}}, settings);
+    EXPECT_EQ(told, expected);
+}
+
 // Too few draws are said to be too few.
 TEST(Sampler, TooFewDrawsHaveNotConverged) {
     SamplerSettings settings;

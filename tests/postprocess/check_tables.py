@@ -4,7 +4,9 @@ usage: check_tables.py POSTPROCESS
 """
 
 import pathlib
+import subprocess
 import sys
+import tempfile
 
 import numpy as np
 
@@ -169,6 +171,17 @@ def check_speed_over_stages():
     assert [text.get_text() for text in axes.texts] == ["1", "2"]
 
 
+def check_style():
+    """A style sheet that is wrong ends the program as any wrong input does, before the campaign is read; of an unknown key matplotlib only warns."""
+    with tempfile.TemporaryDirectory() as folder:
+        style = pathlib.Path(folder, "own.mplstyle")
+        for text in ("font.size: large letters\n", "no.such.key: 1\n", "font.size 12\n"):
+            style.write_text(text)
+            done = subprocess.run([sys.executable, "-B", "-m", "vibrotrough.figures.draw", folder, "--style", style], cwd=sys.argv[1], capture_output=True, text=True)
+            assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
+            assert f"cannot use the style sheet {style} (" in done.stderr, done.stderr
+
+
 check_partition()
 check_screening()
 check_partition_through_the_opening()
@@ -179,6 +192,7 @@ check_materials_along()
 check_along()
 check_residence()
 check_speed_over_stages()
+check_style()
 for plot in (tables.plot_screening, tables.plot_partition, tables.plot_segregation, tables.plot_along, tables.plot_residence, tables.plot_stages):
     assert drawn(plot, {}) is None
 # Each kind has a drawing function.

@@ -119,6 +119,16 @@ TEST_F(MeshCampaign, MistakesAreNamed) {
                 HasSubstr("trough.mesh: is not a list of 1 to 30 texts"));
     EXPECT_THAT(error(with("[grains]", "mesh_unit = \"m\"\n\n[grains]")),
                 HasSubstr("trough.mesh_unit: needs trough.mesh"));
+    for (auto const& [written, meant] : {std::pair{"in", "inch"},
+                                         {"inches", "inch"},
+                                         {"MM", "mm"},
+                                         {"centimetre", "cm"},
+                                         {"meters", "m"},
+                                         {"furlong", "mm"}})
+        EXPECT_THAT(
+            error(on_mesh(with("restitution = 0.5",
+                               "restitution = 0.5\nmesh_unit = \"" + std::string(written) + "\""))),
+            HasSubstr("write mesh_unit = \"" + std::string(meant) + "\"; allowed: mm, m, cm or inch"));
     std::vector<Triangle> slope;
     add_rectangle(slope, {0, 0, 0}, {36, 0, 2}, {36, 18, 2}, {0, 18, 0});
     write("vee.stl", slope);

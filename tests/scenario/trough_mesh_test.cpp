@@ -208,10 +208,10 @@ TEST(TroughMesh, WhatIsHarmlessIsMended) {
     auto const mended = read(mesh);
     EXPECT_NEAR(area_of(mended->triangles), area_of(short_vee()), 1e-3);
     ASSERT_EQ(mended->repairs.size(), 3u);
-    EXPECT_THAT(mended->repairs[0], HasSubstr("1 corners were joined"));
+    EXPECT_THAT(mended->repairs[0], HasSubstr("1 corner was joined with another"));
     EXPECT_THAT(mended->repairs[1],
-                HasSubstr("1 triangles without area were left out: triangle 6 at (5, 0, 0)"));
-    EXPECT_THAT(mended->repairs[2], HasSubstr("1 copies of triangles were left out: triangle 5"));
+                HasSubstr("1 triangle without area was left out: triangle 6 at (5, 0, 0)"));
+    EXPECT_THAT(mended->repairs[2], HasSubstr("1 copy of a triangle was left out: triangle 5"));
 
     std::vector<Triangle> split = short_vee();
     split[0] = {{{5, -9, 9}, {41, -9, 9}, {23, -4.5, 4.5}}};
@@ -219,7 +219,7 @@ TEST(TroughMesh, WhatIsHarmlessIsMended) {
     auto const divided_there = read(split);
     ASSERT_EQ(divided_there->repairs.size(), 1u);
     EXPECT_THAT(divided_there->repairs[0],
-                HasSubstr("1 edges were divided where a corner lies in them: at (23, -4.5, 4.5)"));
+                HasSubstr("1 edge was divided where a corner lies in it: at (23, -4.5, 4.5)"));
     EXPECT_EQ(divided_there->triangles.size(), 6u);
     EXPECT_NEAR(area_of(divided_there->triangles), area_of(short_vee()), 1e-9);
 }

@@ -1,4 +1,5 @@
 #include "scenario/model/recorded_motion.hpp"
+#include "scenario/model/scenario.hpp"
 
 #include <cmath>
 #include <functional>
@@ -13,6 +14,7 @@
 namespace vibrotrough::scenario {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -150,19 +152,41 @@ TEST(Waveform, AVerticalMotionHasNinetyDegrees) {
     EXPECT_TRUE(w->motion.along.empty());
 }
 
+std::string error(std::string const& text) {
+    try {
+        read(text);
+    } catch (std::invalid_argument const& wrong) {
+        return wrong.what();
+    }
+    return "no error";
+}
+
+// Two samples in a cycle or fewer show another frequency (Nyquist), and fewer than three no amplitude.
+TEST(Waveform, ARecordThatIsSampledTooCoarselyIsNamed) {
+    for (double const rate : {52., 60., 70., 74.})
+        EXPECT_THAT(error(record(along, normal, {.rate = rate})),
+                    AllOf(HasSubstr("sampled too coarsely"), HasSubstr("a cycle of 25 Hz")))
+            << rate;
+    EXPECT_THAT(
+        error(record(along, normal, {.rate = 62.5})),
+        AllOf(HasSubstr("every 16 ms, a cycle of 25 Hz has only 2.5 of them"), HasSubstr("one every 2 ms")));
+    // Below two, the frequency of the trough tells.
+    Trough trough{};
+    trough.frequency = 25;
+    EXPECT_THAT(find_fault(*read(record(along, normal, {.rate = 32})), trough)->wrong,
+                HasSubstr("of whose cycle it has only 1.28 samples: sample it more often"));
+    auto const sine = [](double t) { return 1e-3 * std::sin(omega * t); };
+    EXPECT_NEAR(read(record(sine, normal, {.rate = 77}))->motion.along[0].amplitude, 1e-3, 1e-6);
+}
+
 TEST(Waveform, MistakesAreNamed) {
-    auto const error = [](std::string const& text) -> std::string {
-        try {
-            read(text);
-        } catch (std::invalid_argument const& wrong) {
-            return wrong.what();
-        }
-        return "no error";
-    };
     EXPECT_THAT(error("time_s,ax_g,z_m\n0,0,0\n"), HasSubstr("displacements and accelerations are mixed"));
     EXPECT_THAT(error("time_s,u_m,z_m\n"), HasSubstr("line 1: 'u_m' is not a known column"));
     EXPECT_THAT(error("time_s,x_m\n"), HasSubstr("time, x and z are not given once each"));
     EXPECT_THAT(error(record(along, normal, {.count = 100})), HasSubstr("does not end where it begins"));
+    EXPECT_THAT(error(record(along, normal, {.point = ','})),
+                AllOf(HasSubstr("its numbers seem to have decimal commas"),
+                      HasSubstr("separate the columns with semicolons")));
     EXPECT_EQ(error(record([](double) { return 1.0; }, [](double) { return 2.0; })),
               "the trough does not move");
 }

@@ -97,5 +97,23 @@ TEST_F(Outputs, AnglesHaveOneRange) {
         "inclination_deg = ");
 }
 
+// The same slopes as tangents: 45 degrees is 1.
+TEST_F(Outputs, SlopesHaveOneRange) {
+    auto const batch = [&](char const* slope) {
+        std::ofstream(path("in.csv"))
+            << "throw_number,friction,vibration_angle_deg,tan_inclination\n2,1.5,30," << slope << '\n';
+        return "theory batch " + path("in.csv") + " --output " + path("out.csv");
+    };
+    std::string const told = " is outside its range [-1, 1]";
+    for (char const* const slope : {"1.01", "-1.01", "5"})
+        expect_refused(batch(slope), "tan_inclination = " + std::string(slope) + told);
+    for (char const* const slope : {"1", "-1"}) EXPECT_EQ(run_program(batch(slope)).exit_code, 0) << slope;
+    expect_refused(
+        "theory map --x throw_number=1:3:3 --y tan_inclination=0:1.5:4 --tan-vibration-angle 0.5 "
+        "--friction 0.3 --output " +
+            path("map.h5"),
+        "tan_inclination = 1.5" + told);
+}
+
 }  // namespace
 }  // namespace vibrotrough

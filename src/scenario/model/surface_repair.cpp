@@ -76,14 +76,19 @@ class Mending {
         std::vector<Point> joined;
         net_ = net_of(surface_.triangles, tolerance_, joined);
         if (!joined.empty())
-            say(joined.size(), "corners were joined with others that are closer than {}", joined.front());
-        leave_out("triangles without area were left out", [&](std::size_t i) { return is_flat(i); });
+            say(joined.size(),
+                {"corner was joined with another that is closer than {}",
+                 "corners were joined with others that are closer than {}"},
+                joined.front());
+        leave_out({"triangle without area was left out", "triangles without area were left out"},
+                  [&](std::size_t i) { return is_flat(i); });
         std::set<Corners> known;
-        leave_out("copies of triangles were left out", [&](std::size_t i) {
-            Corners nodes = net_.triangles[i];
-            std::ranges::sort(nodes);
-            return !known.insert(nodes).second;
-        });
+        leave_out({"copy of a triangle was left out", "copies of triangles were left out"},
+                  [&](std::size_t i) {
+                      Corners nodes = net_.triangles[i];
+                      std::ranges::sort(nodes);
+                      return !known.insert(nodes).second;
+                  });
         divide_at_nodes();
         for (std::size_t i = 0; i < net_.triangles.size(); ++i)
             surface_.triangles[i] = net_.at(net_.triangles[i]);
@@ -91,12 +96,18 @@ class Mending {
     }
 
   private:
-    void say(std::size_t count, std::string const& what, Point const& at, std::string const& which = "") {
+    /// What was done at one place, and at several.
+    struct Done {
+        char const *once, *often;
+    };
+
+    void say(std::size_t count, Done const& what, Point const& at, std::string const& which = "") {
         Point place{};
         for (std::size_t k = 0; k < 3; ++k) place[k] = at[k] + origin_[k];
-        said_.push_back(fmt::format("{} {}: {}at ({:.6g}, {:.6g}, {:.6g}) in the file{}", count,
-                                    fmt::format(fmt::runtime(what), fmt::format("{:.2g}", tolerance_)), which,
-                                    place[0], place[1], place[2], count > 1 ? ", for example" : ""));
+        said_.push_back(fmt::format(
+            "{} {}: {}at ({:.6g}, {:.6g}, {:.6g}) in the file{}", count,
+            fmt::format(fmt::runtime(count > 1 ? what.often : what.once), fmt::format("{:.2g}", tolerance_)),
+            which, place[0], place[1], place[2], count > 1 ? ", for example" : ""));
     }
 
     bool is_flat(std::size_t i) const {
@@ -105,7 +116,7 @@ class Mending {
     }
 
     template <typename IsWrong>
-    void leave_out(std::string const& what, IsWrong const& is_wrong) {
+    void leave_out(Done const& what, IsWrong const& is_wrong) {
         std::size_t kept = 0, first = 0;
         Point place{};
         std::size_t const before = net_.triangles.size();
@@ -157,7 +168,11 @@ class Mending {
             if (count++ == 0) first = *found;
             divide(triangle, edge, *found, border);
         }
-        if (count > 0) say(count, "edges were divided where a corner lies in them", net_.nodes[first]);
+        if (count > 0)
+            say(count,
+                {"edge was divided where a corner lies in it",
+                 "edges were divided where a corner lies in them"},
+                net_.nodes[first]);
     }
 
     /// Divides a triangle at a node in one of its edges. Borders of the part that is new belong to it.

@@ -23,7 +23,8 @@ constexpr double least_told =
     0.01;  ///< of the fundamental: a vibration that is left out is told from this size on
 constexpr double beyond_noise =
     6;  ///< standard errors: 1 of 100 maxima of a million lines of pure noise is larger
-constexpr double certain = 4;  ///< standard errors: 1 of 3000 amplitudes of pure noise is larger
+constexpr double fewest_in_cycle = 3;  ///< samples: of a sine, a cosine and a mean
+constexpr double certain = 4;          ///< standard errors: 1 of 3000 amplitudes of pure noise is larger
 
 /// A least-squares fit of sines and cosines of the orders 1 to `orders`, and of a polynomial.
 struct Fit {
@@ -236,6 +237,17 @@ std::vector<std::string> remarks_on(Waveform const& w, Record const& record, Har
     return all;
 }
 
+/// @throws std::invalid_argument when no order can be fitted to a cycle
+void check_sampling(Record const& record, double frequency) {
+    constexpr double good = 20;
+    double const in_cycle = 1 / (frequency * record.spacing);
+    if (in_cycle > fewest_in_cycle - 1e-6) return;
+    throw std::invalid_argument(fmt::format(
+        "it is sampled too coarsely: with a sample every {:.4g} ms, a cycle of {:.4g} Hz has only "
+        "{:.3g} of them, and at least {} are needed; record one every {:.2g} ms, so that it has {}",
+        1e3 * record.spacing, frequency, in_cycle, fewest_in_cycle, 1e3 / (good * frequency), good));
+}
+
 double whole_cycles(Record const& record, double frequency) {
     return std::max(1.0, std::floor(frequency * record.spacing * static_cast<double>(record.count()) + 0.01));
 }
@@ -262,6 +274,7 @@ std::shared_ptr<Waveform const> read_waveform(NamedFile file) {
     drop_first_of_next(record);
     Waveform w{std::move(file)};
     w.frequency = fundamental_of(record);
+    check_sampling(record, w.frequency);
     double const cycles = whole_cycles(record, w.frequency);
     Harmonics found = harmonics_of(record, w.frequency, cycles);
     double const least = 1e-6 * largest_term(found.all);
@@ -295,9 +308,14 @@ RecordedMotion recorded_motion(Waveform const& waveform) {
 std::optional<WaveformFault> find_fault(Waveform const& waveform, Trough const& trough) {
     double const along = fundamental(waveform.motion.along), normal = fundamental(waveform.motion.normal);
     std::vector<std::string> faults;
-    if (std::abs(waveform.frequency - trough.frequency) > near_record * waveform.frequency)
+    if (std::abs(waveform.frequency - trough.frequency) > near_record * waveform.frequency) {
         faults.push_back(fmt::format("its frequency is {:.6g} Hz, and that of the trough {:.6g} Hz",
                                      waveform.frequency, trough.frequency));
+        double const in_cycle = 1 / (trough.frequency * read_record(waveform.file.content).spacing);
+        if (in_cycle < fewest_in_cycle)  // a lower frequency is seen (Nyquist)
+            faults.back() +=
+                fmt::format(", of whose cycle it has only {:.3g} samples: sample it more often", in_cycle);
+    }
     if (std::abs(waveform.amplitude - trough.amplitude) > near_record * waveform.amplitude ||
         std::abs(waveform.angle - trough.vibration_angle) > near_record) {
         faults.push_back(

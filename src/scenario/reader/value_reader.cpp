@@ -39,7 +39,7 @@ class ValueReader {
         fail(node,
              are_files ? "is one file, and a list is given"
                        : fmt::format("{} is not an allowed value", written(node)),
-             fmt::format("{}; allowed: {}", write_instead(key_), range_of(key_)));
+             fmt::format("{}; allowed: {}", write_meant(word), range_of(key_)));
     }
 
     std::string name(toml::node const& node) const {
@@ -149,6 +149,22 @@ class ValueReader {
         if (name.ends_with("friction")) slip = theory::slip_of_friction(value);
         if (name.starts_with("tan_")) slip = theory::slip_of_tangent(value);
         return slip.empty() ? "" : fmt::format(" ({})", slip);
+    }
+
+    /// The allowed word that is the same unit, "inch" for "in"; otherwise the example of the key.
+    std::string write_meant(std::string const& word) const {
+        for (std::string_view const unit : choices(key_))
+            if (are_same_length(word, std::string(unit)))
+                return fmt::format("write {} = \"{}\"", last_name(key_.path), unit);
+        return write_instead(key_);
+    }
+
+    static bool are_same_length(std::string const& one, std::string const& other) {
+        try {
+            return core::parse_quantity("1 " + one, "m") == core::parse_quantity("1 " + other, "m");
+        } catch (core::QuantityError const&) {
+            return false;
+        }
     }
 
     /// The file lies in the folder of the campaign file, and its name is harmless to engine and shell.
