@@ -38,8 +38,10 @@ constexpr std::array table{
     OutcomeEntry{insertion_incomplete, "insertion-incomplete",
                  "Not all grains found room when they were poured.", useless,
                  "choose fewer grains or a larger box"},
-    OutcomeEntry{not_settled, "not-settled", "The packing did not come to rest on the standing trough.",
-                 useless, "choose a smaller inclination, more friction or less cohesion"},
+    OutcomeEntry{
+        not_settled, "not-settled", "The packing did not come to rest on the standing trough.", useless,
+        "choose a smaller inclination, more friction or less cohesion; cohesive grains of unequal sizes "
+        "may settle without rolling friction"},
     OutcomeEntry{
         overfull, "overfull",
         "An open trough is fed more than it conveys: the layer has grown up to the feed, so that new "
