@@ -11,8 +11,8 @@
 
 namespace vibrotrough::learn {
 
-// The notes of this module, from their text alone. The parse functions throw core::note::Fault when the text is
-// not such a note.
+// The notes of this module, from their text alone. The parse functions throw core::note::Fault when the text
+// is not such a note.
 
 /// learn.json. @returns the half-width that was wanted of each case, by its id, > 0
 std::map<std::string, double> parse_half_widths(std::string_view text);

@@ -20,8 +20,8 @@ struct ClassCount {
     double share = 0;  ///< in a feed, by number: `count`, or of a mixture the exact fraction of all grains
 };
 
-/// Everything that follows from a scenario and that more than one module needs. It is worked out once and read
-/// by deck, evaluate, campaign, compare and view. SI units.
+/// Everything that follows from a scenario and that more than one module needs. It is worked out once and
+/// read by deck, evaluate, campaign, compare and view. SI units.
 struct PreparedCase {
     scenario::Scenario scenario;  ///< the case from which the rest follows
 
