@@ -331,7 +331,7 @@ std::optional<Value> Column::of(Row const& row) const {
     if (own >= 0) return at(row.own, own);
     if (observed >= 0) return at(row.observed, observed);
     if (measured >= 0) {
-        auto known = at(row.measured, measured);
+        auto known = row.measured.at(static_cast<std::size_t>(measured));
         if (known && std::holds_alternative<double>(*known)) known = unit_factor * std::get<double>(*known);
         return known;
     }

@@ -91,11 +91,11 @@ std::optional<Value> known_value(store::CaseNumber const& value) {
 
 void add_measurement(Row& row, store::CaseRecord const& record) {
     if (!record.layer_mode.empty()) row.layer_mode = record.layer_mode;
-    bool const mean = has_mean(record.outcome);          // no mean is reported unless the case is steady
-    row.measured.reserve(measured_quantities().size());  // a campaign has many rows
-    for (store::Quantity const* const one : measured_quantities()) {
-        bool const is_shown = mean || one->known_without_mean;
-        row.measured.push_back(is_shown ? known_value(one->of_case(record)) : std::nullopt);
+    bool const mean = has_mean(record.outcome);  // no mean is reported unless the case is steady
+    auto const& all = measured_quantities();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!mean && !all[i]->known_without_mean) continue;
+        if (auto const known = known_value(all[i]->of_case(record))) row.measured.set(i, known);
     }
 }
 
@@ -188,9 +188,29 @@ std::vector<store::Quantity const*> const& measured_quantities() {
     return shown;
 }
 
+std::optional<Value> MeasuredValues::at(std::size_t place) const {
+    if (auto const word = words_.find(place); word != words_.end()) return word->second;
+    auto const number = std::ranges::lower_bound(numbers_, place, {}, &Number::place);
+    if (number == numbers_.end() || number->place != place) return {};
+    return number->is_whole ? Value(static_cast<int>(number->value)) : Value(number->value);
+}
+
+void MeasuredValues::set(std::size_t place, std::optional<Value> const& value) {
+    words_.erase(place);
+    auto number = std::ranges::lower_bound(numbers_, place, {}, &Number::place);
+    if (number != numbers_.end() && number->place == place) number = numbers_.erase(number);
+    if (!value) return;
+    if (auto const* const word = std::get_if<std::string>(&*value)) {
+        words_.emplace(place, *word);
+        return;
+    }
+    auto const* const whole = std::get_if<int>(&*value);
+    double const known = whole != nullptr ? *whole : std::get<double>(*value);
+    numbers_.insert(number, {static_cast<std::uint16_t>(place), whole != nullptr, known});
+}
+
 std::optional<Value> Row::of(std::string_view quantity) const {
-    std::size_t const place = place_of(quantity);
-    return place < measured.size() ? measured[place] : std::nullopt;
+    return measured.at(place_of(quantity));
 }
 
 std::optional<double> Row::number(std::string_view quantity) const {
@@ -201,9 +221,7 @@ std::optional<double> Row::number(std::string_view quantity) const {
 }
 
 void Row::set(std::string_view quantity, std::optional<Value> const& value) {
-    std::size_t const place = place_of(quantity);
-    measured.resize(measured_quantities().size());
-    measured[place] = value;
+    measured.set(place_of(quantity), value);
 }
 
 bool is_expected(Row const& row) {

@@ -4,6 +4,8 @@
 #include "prepare/prepared_case.hpp"
 #include "store/quantity.hpp"
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +16,25 @@ namespace vibrotrough::compare {
 
 /// A known value of a column.
 using Value = std::variant<double, int, std::string>;
+
+/// Those values of measured_quantities() that are known, by their places there and in their units. Most are
+/// numbers, which are kept in few bytes: a campaign may have 100,000 rows.
+class MeasuredValues {
+  public:
+    /// Nothing where it is not known.
+    std::optional<Value> at(std::size_t place) const;
+    /// Sets a value, or makes it unknown. @param place  below 65,536
+    void set(std::size_t place, std::optional<Value> const& value);
+
+  private:
+    struct Number {
+        std::uint16_t place;
+        bool is_whole;  ///< an int
+        double value;
+    };
+    std::vector<Number> numbers_;  ///< in the order of their places
+    std::map<std::size_t, std::string> words_;
+};
 
 /// One case: what was measured beside what the point-mass theory predicts. Members without a value are not
 /// known. The table of columns, columns.cpp, explains the members.
@@ -45,8 +66,7 @@ struct Row {
     std::vector<std::optional<Value>> own = {};
     /// Of each number among the campaign's observables, in their order, the mean and the half-width.
     std::vector<std::optional<Value>> observed = {};
-    /// Values of measured_quantities() in their order and units; empty without a result.
-    std::vector<std::optional<Value>> measured = {};
+    MeasuredValues measured = {};  ///< of the result; empty without one
     std::optional<double> efficiency_theory_restitution =
         {};  ///< with the case's; none where it has no answer
     std::optional<double> efficiency_theory_restitution_half_width = {};  ///< none where it is exact

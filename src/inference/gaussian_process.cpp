@@ -66,8 +66,8 @@ GaussianProcess::GaussianProcess(ProcessData data, TrendPrior prior, Hyperparame
     : data_(std::move(data)), prior_(std::move(prior)), hyperparameters_(std::move(hyperparameters)) {
     check(data_, prior_);
     check_hyperparameters(hyperparameters_, data_.inputs.cols());
-    matern_ = matern_of(data_.inputs, hyperparameters_);
-    Matrix covariance = matern_ + data_.trend * prior_.sd.cwiseAbs2().asDiagonal() * data_.trend.transpose();
+    Matrix covariance = matern_of(data_.inputs, hyperparameters_) +
+                        data_.trend * prior_.sd.cwiseAbs2().asDiagonal() * data_.trend.transpose();
     covariance.diagonal() += data_.noise.cwiseAbs2();
     covariance.diagonal().array() += hyperparameters_.extra_noise * hyperparameters_.extra_noise;
     factor_.compute(covariance);
@@ -84,7 +84,7 @@ Vector GaussianProcess::log_likelihood_gradient() const {
     Eigen::Index const n = data_.values.size(), inputs = data_.inputs.cols();
     Matrix const inner = weights_ * weights_.transpose() - factor_.solve(Matrix::Identity(n, n));
     Vector gradient = Vector::Zero(inputs + 2);
-    gradient(0) = inner.cwiseProduct(matern_).sum();
+    gradient(0) = inner.cwiseProduct(matern_of(data_.inputs, hyperparameters_)).sum();
     double const variance = hyperparameters_.deviation * hyperparameters_.deviation;
     for (Eigen::Index i = 0; i < n; ++i) {
         for (Eigen::Index j = 0; j < i; ++j) {

@@ -123,7 +123,6 @@ class GaussianProcess {
     ProcessData data_;
     TrendPrior prior_;
     Hyperparameters hyperparameters_;
-    Eigen::MatrixXd matern_;              ///< covariance of z between the data
     Eigen::LLT<Eigen::MatrixXd> factor_;  ///< of the covariance of the data with noise
     Eigen::VectorXd weights_;             ///< its inverse times (values - mean of the trend)
     double log_likelihood_ = 0;
