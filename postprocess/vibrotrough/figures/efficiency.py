@@ -279,16 +279,17 @@ def add_legend(figure: Figure, grid: list[Axes], title: str, lines: dict[str, An
     found |= lines
     across = characters_across(figure, points(9))
     title = textwrap.fill(title, across)
-    fitting = max(1, across // (max(map(len, names), default=0) + 8))
+    longest = max(map(len, names), default=0)
+    most = max(1, min(across // (longest + 8), 3 if longest < 24 else 2))
+    rows = max(1, math.ceil(len(names) / most))  # of nearly equal length
     settings: dict[str, Any] = {"frameon": False, "fontsize": points(9), "title": title, "title_fontsize": points(9), "columnspacing": 1.2,
-                                "handletextpad": 0.4, "ncols": min(len(names), fitting, 3 if max(map(len, names), default=0) < 24 and len(names) != 4 else 2)}
+                                "handletextpad": 0.4, "ncols": max(1, math.ceil(len(names) / rows))}
     handles = [found[name] for name in names]
     if len(grid) == 1:
         grid[0].legend(handles, names, loc="lower center", bbox_to_anchor=(0.5, 1.0), **settings)
         return 0.0
     figure.legend(handles, names, loc="upper center", bbox_to_anchor=(0.5, 1.0), **settings)
-    taken = 1 - (-len(names) // settings["ncols"])
-    return float((0.15 + 0.2 * taken) / figure.get_size_inches()[1])
+    return float((0.15 + 0.2 * (1 + rows)) / figure.get_size_inches()[1])
 
 
 def label(figure: Figure, grid: list[Axes], series: Series, attributes: dict[str, Any], told: str, lines: dict[str, Any]) -> float:
