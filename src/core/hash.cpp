@@ -9,6 +9,16 @@
 #include <openssl/evp.h>
 
 namespace vibrotrough::core {
+namespace {
+
+// Looked up once: OpenSSL reads its lists for it, in each thread that asks before another has the answer.
+EVP_MD const* sha256() {
+    static std::unique_ptr<EVP_MD, decltype(&EVP_MD_free)> const method(
+        EVP_MD_fetch(nullptr, "SHA256", nullptr), EVP_MD_free);
+    return method.get();
+}
+
+}  // namespace
 
 std::string sha256_hex(std::string_view bytes) {
     return sha256_hex(std::span(&bytes, 1));
@@ -16,7 +26,7 @@ std::string sha256_hex(std::string_view bytes) {
 
 std::string sha256_hex(std::span<std::string_view const> pieces) {
     std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> const context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
-    bool is_well = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+    bool is_well = context && sha256() && EVP_DigestInit_ex(context.get(), sha256(), nullptr) == 1;
     for (std::string_view const piece : pieces)
         is_well = is_well && EVP_DigestUpdate(context.get(), piece.data(), piece.size()) == 1;
     std::array<unsigned char, 32> digest{};
