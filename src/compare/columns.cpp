@@ -204,7 +204,9 @@ std::vector<Column> mode_columns() {
         {.name = "mode_theory_restitution",
          .unit = "1",
          .value = field<&Row::mode_theory_restitution>,
-         .meaning = "Mode of the point mass with restitution; unknown when its motion has no period"},
+         .meaning =
+             "Mode of the point mass with restitution, its first 20 phases; unknown when its motion has no "
+             "period"},
         {.name = "layer_mode",
          .unit = "1",
          .value = field<&Row::layer_mode>,

@@ -106,12 +106,12 @@ theory::Motion solve(PointMassInputs const& inputs) {
     return theory::solve(inputs.conveyor).motion;
 }
 
-std::optional<theory::ConveyorMotion> solve_with_restitution(PointMassInputs const& inputs) {
+std::optional<theory::Efficiency> solve_with_restitution(PointMassInputs const& inputs) {
     if (inputs.restitution > theory::largest_restitution) return {};
     theory::Conveyor conveyor = inputs.conveyor;
     conveyor.restitution = inputs.restitution;
     try {
-        return theory::solve(conveyor);
+        return theory::EfficiencySolver().solve(conveyor);
     } catch (theory::PhaseError const&) {  // the plastic motion, which the paper has, may still be known
         return {};
     }
@@ -124,10 +124,10 @@ PointMassTheory point_mass_theory(PointMassInputs const& inputs) {
     if (plastic.converged) known.efficiency = plastic.velocity_efficiency;
     auto const rebounding = solve_with_restitution(inputs);
     if (!rebounding) return known;
-    theory::Motion const& motion = rebounding->motion;
-    known.mode_restitution = motion.mode;
-    bool const is_mean = motion.outcome == theory::Outcome::unsettled;
-    if (motion.converged || is_mean) known.efficiency_restitution = motion.velocity_efficiency;
+    known.mode_restitution = theory::to_string(rebounding->mode);
+    bool const is_mean = rebounding->outcome == theory::Outcome::unsettled;
+    if (rebounding->outcome == theory::Outcome::periodic || is_mean)
+        known.efficiency_restitution = rebounding->velocity_efficiency;
     if (is_mean) known.half_width_restitution = rebounding->half_width;
     return known;
 }

@@ -2,6 +2,7 @@
 
 #include "scenario/model/scenario.hpp"
 #include "theory/conveyor.hpp"
+#include "theory/efficiency.hpp"
 
 #include <optional>
 #include <string>
@@ -48,7 +49,7 @@ theory::Motion solve(PointMassInputs const& inputs);
 /// The motion with the case's restitution. With rebounds a motion often has no period, and its efficiency is
 /// a mean with an interval; it takes about a millisecond. None where the theory cannot answer: its
 /// restitution ends at theory::largest_restitution.
-std::optional<theory::ConveyorMotion> solve_with_restitution(PointMassInputs const& inputs);
+std::optional<theory::Efficiency> solve_with_restitution(PointMassInputs const& inputs);
 
 /// Both.
 PointMassTheory point_mass_theory(PointMassInputs const& inputs);
