@@ -73,9 +73,9 @@ class Requeue(EndToEndTest):
         wait_until(lambda: self.outcome() == "interrupted", "the task had ended")
 
     def test_a_task_is_warned_before_its_time_is_over(self):
-        """Slurm sends the warning up to a minute earlier than asked for."""
+        """Slurm sends the warning up to a minute earlier than asked for. A layer that had not settled by then would begin anew."""
         slurm = self.start_slurm(cpus=1, requeue_delay=20)
-        self.submit(RUN_ON_SLURM.replace("10 minutes", "2 minutes") + WARNED)
+        self.submit(RUN_ON_SLURM.replace("10 minutes", "3 minutes") + WARNED)
         reached = wait_until(lambda: slurm.command("squeue", "-h", "-o", "%T").stdout.startswith("PENDING") and self.cycles() and self.checkpoint(), "it was queued again")
         self.assertEqual(wait_until(self.continued_engine, "the task went on"), reached)
         self.assertEqual(self.outcome(), "running")
