@@ -9,7 +9,6 @@ import itertools
 import math
 import pathlib
 import sys
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -108,10 +107,11 @@ def cost(layer: Layer) -> float:
     return layer.inputs["depth"] * period * math.sqrt(layer.modulus)
 
 
-def judges() -> Iterator[Layer]:
-    """Random layers, on which no choice rests."""
-    for number, point in enumerate(np.random.default_rng(JUDGES_SEED).random((JUDGES, len(NAMES)))):
-        yield layer_at(number, list(map(float, point)), ORDINARY_SOFTNESS, design.RANGES["amplitude"][1])
+def judges() -> list[Layer]:
+    """Random layers, on which no choice rests, in the order in which they are simulated."""
+    points = np.random.default_rng(JUDGES_SEED).random((JUDGES, len(NAMES)))
+    every = [layer_at(number, list(map(float, point)), ORDINARY_SOFTNESS, design.RANGES["amplitude"][1]) for number, point in enumerate(points)]
+    return sorted(every, key=cost)
 
 
 def layer_at(number: int, point: list[float], softest: tuple[float, float], largest_amplitude: float) -> Layer:
