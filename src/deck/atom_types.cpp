@@ -127,6 +127,7 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("other_types", fmt::format("{}", fmt::join(type_names, ", ")));
     data.set("materials", describe_materials(n));
     data.set(std::string(name_of(s.engine.contact)), !block);
+    data.set("also_" + std::string(name_of(s.engine.contact)), !block);  // of a model that is new
     data.set("coheres", s.engine.cohesion > 0);
     data.set("cohesion", exact(s.engine.cohesion));
     data.set("cohesions", repeated(types * types, s.engine.cohesion));

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -65,9 +66,11 @@ measure::PhaseSeries packing_phases(prepare::PreparedCase const& prepared, core:
     scenario::Scenario const& s = prepared.scenario;
     auto series = measure::parse_phases(file, prepared.time.steps_per_cycle);
     bool const is_body = is_clump(s.grains) || s.layer.block == scenario::Block::plate;
-    if (!is_body || !prepared.stages.empty()) return series;
-    return measure::with_integrated_positions(std::move(series),
-                                              1 / (s.trough.frequency * measure::PhaseSeries::per_cycle));
+    double const interval = 1 / (s.trough.frequency * measure::PhaseSeries::per_cycle);
+    double const moved = std::abs(std::reduce(series.vx.begin(), series.vx.end())) * interval;
+    bool const is_far = moved > measure::surely_counted * s.layer.length;
+    if (!(is_body || is_far) || !prepared.stages.empty()) return series;
+    return measure::with_integrated_positions(std::move(series), interval);
 }
 
 void measure_layer(store::PackingRecord& record, prepare::PreparedCase const& prepared,

@@ -58,13 +58,29 @@ measure::Precision wanted(prepare::PreparedCase const& prepared) {
     return {prepared.scenario.measure.confidence, prepared.scenario.measure.half_width};
 }
 
+/// The durations of so many cycles, s.
+std::vector<double> durations_of(prepare::PreparedCase const& prepared, int cycles) {
+    if (!prepared.stages.empty()) return cycle_durations(prepared.stages);
+    return std::vector<double>(static_cast<std::size_t>(cycles), 1 / prepared.scenario.trough.frequency);
+}
+
+/// m/s
+double tolerance_of(prepare::PreparedCase const& prepared) {
+    return speed_tolerance * prepared.angular_frequency * prepared.scenario.trough.amplitude;
+}
+
 measure::CycleSeries parse(prepare::PreparedCase const& prepared, core::TextFile const& cycles) {
     if (prepared.domain.loses_grains())
         return measure::parse_open_cycles(
             cycles, prepared.time.steps_per_cycle,
             is_fed_screen(prepared.scenario) ? static_cast<int>(prepared.classes.size()) : 0);
-    return measure::parse_cycles(cycles, prepared.time.steps_per_cycle, prepared.scenario.layer.grains,
-                                 static_cast<int>(prepared.materials.size()));
+    auto series = measure::parse_cycles(cycles, prepared.time.steps_per_cycle, prepared.scenario.layer.grains,
+                                        static_cast<int>(prepared.materials.size()));
+    // The velocities of single materials are not known.
+    if (prepared.clump || prepared.materials.size() > 1) return series;
+    auto const durations = durations_of(prepared, series.cycles());
+    return measure::without_jumps(std::move(series), prepared.scenario.layer.length, durations,
+                                  tolerance_of(prepared));
 }
 
 measure::CycleSeries first_of(measure::CycleSeries const& series, int cycles, fs::path const& folder) {
@@ -107,12 +123,6 @@ double force_at_the_ends(measure::PhaseSeries const& phases) {
     return std::abs(phases.normal_force.front()) + std::abs(phases.normal_force.back());
 }
 
-/// The durations of so many cycles, s.
-std::vector<double> durations_of(prepare::PreparedCase const& prepared, int cycles) {
-    if (!prepared.stages.empty()) return cycle_durations(prepared.stages);
-    return std::vector<double>(static_cast<std::size_t>(cycles), 1 / prepared.scenario.trough.frequency);
-}
-
 /// What is said when displacements and velocities contradict each other. Positions of rigid bodies are not
 /// unwrapped, and grains of an open trough and of a screen come and go.
 std::optional<UnusableOutputs> find_contradiction(prepare::PreparedCase const& prepared,
@@ -120,12 +130,15 @@ std::optional<UnusableOutputs> find_contradiction(prepare::PreparedCase const& p
     if (prepared.clump || prepared.domain.loses_grains()) return {};
     double const trough = prepared.angular_frequency * prepared.scenario.trough.amplitude;
     double const difference = measure::difference_of_speeds(cycles, durations_of(prepared, cycles.cycles()));
-    if (difference <= speed_tolerance * trough) return {};
+    if (difference <= tolerance_of(prepared)) return {};
     return UnusableOutputs{
         core::Outcome::outputs_incomplete,
         fmt::format("cycles.csv contradicts itself: in a cycle the displacement of the layer (x_com) and its "
-                    "mean velocity (mean_vx) differ by {:.3g} m/s; the trough moves with {:.3g} m/s",
-                    difference, trough)};
+                    "mean velocity (mean_vx) differ by {:.3g} m/s; the trough moves with {:.3g} m/s{}",
+                    difference, trough,
+                    prepared.materials.size() > 1 ? ". LIGGGHTS follows a mixture for 512 lengths of the "
+                                                    "periodic box: lengthen it, or lower measure.max_cycles"
+                                                  : "")};
 }
 
 std::optional<UnusableOutputs> find_fault(prepare::PreparedCase const& prepared, PackingFiles const& files,

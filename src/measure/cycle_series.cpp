@@ -145,6 +145,23 @@ double difference_of_speeds(CycleSeries const& series, std::span<double const> d
     return largest;
 }
 
+CycleSeries without_jumps(CycleSeries series, double box_length, std::span<double const> durations,
+                          double tolerance) {
+    if (series.x.empty()) return series;
+    double moved = 0, jumped = 0, before = series.x.front();
+    for (std::size_t i = 0; i < series.mean_velocity.size() && i < durations.size(); ++i) {
+        double const expected = series.mean_velocity[i] * durations[i];
+        double const displaced = series.x[i + 1] - before;
+        moved += expected;
+        if (std::abs(moved) > surely_counted * box_length &&
+            std::abs(displaced - expected) > tolerance * durations[i])
+            jumped += displaced - expected;
+        before = series.x[i + 1];
+        series.x[i + 1] -= jumped;
+    }
+    return series;
+}
+
 double weight_by_momentum(CycleSeries const& series, double mass, double period) {
     double const cycles = series.cycles();
     double const force =

@@ -86,6 +86,19 @@ bool is_finite(CycleSeries const& series);
 /// @param durations  of the cycles, s
 double difference_of_speeds(CycleSeries const& series, std::span<double const> durations);
 
+/// Up to so many lengths of the periodic box the engine surely knows how far a layer has come. It counts in
+/// ten bits how often a grain has crossed the box: after 511 times it goes on at -512, and the centre of mass
+/// jumps back, by 1024 lengths when all grains have. The fastest grains are first.
+inline constexpr double surely_counted = 256;
+
+/// The series without these jumps: from that distance on, the displacement in a cycle is that of the mean
+/// velocity where the two differ by more.
+/// @param box_length  m
+/// @param durations   of the cycles, s
+/// @param tolerance   m/s, of difference_of_speeds()
+CycleSeries without_jumps(CycleSeries series, double box_length, std::span<double const> durations,
+                          double tolerance);
+
 /// The weight of the layer from the momentum balance over all cycles, N: the mean force on the trough minus
 /// the change of the layer's momentum per time, W = mean(F_z) - m (v_z(n) - v_z(0)) / (n T). It is exact up
 /// to the integrator, so that it shows whether the measured force on the trough includes every force that

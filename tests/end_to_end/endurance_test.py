@@ -10,9 +10,9 @@ import unittest
 from trough_program import PROGRAM, EndToEndTest, count_cycles, engines_in, processes_in, wait_until
 
 ONE = {"measure.max_cycles": 24}
-# More cycles than a test waits for, and a regular checkpoint that it never reaches.
-LONG = {"measure.packings": 2, "measure.max_packings": 2, "measure.max_cycles": 100_000, "measure.half_width": 0.0001,
-        "output.checkpoint_cycles": 50_000}  # fmt: skip
+# 24 cycles, after which it is clear that the half-width cannot be reached, take longer than a test does; there is no regular checkpoint.
+LONG = {"layer.grains": 600, "grains.youngs_modulus": "30 MPa", "measure.packings": 2, "measure.max_packings": 2,
+        "measure.max_cycles": 100_000, "measure.half_width": 0.0001, "output.checkpoint_cycles": 50_000}  # fmt: skip
 
 
 class Endurance(EndToEndTest):

@@ -43,6 +43,22 @@ TEST_F(CyclesFile, BothSpeedsAreCompared) {
     EXPECT_NEAR(difference_of_speeds(series, durations), 0.38, 1e-12);
 }
 
+// A layer moves by 1.5 lengths of its box of 0.1 m in each cycle of 1 s, x_k = 0.15 k. LIGGGHTS counts
+// crossings of each grain up to 511: its grains, of which a tenth is 5 % faster, jump back by 1024 lengths
+// after 325 and 341 cycles, and the centre of mass by a tenth and nine tenths of 102.4 m. The mean velocity
+// does not.
+TEST(CycleSeriesOfALongWay, HasNoJumps) {
+    CycleSeries series;
+    for (int k = 0; k <= 500; ++k)
+        series.x.push_back(0.15 * k - (k > 325 ? 10.24 : 0) - (k > 341 ? 92.16 : 0));
+    series.mean_velocity.assign(500, 0.15);
+    std::vector<double> const durations(500, 1);
+    CycleSeries const whole = without_jumps(series, 0.1, durations, 1e-3);
+    for (std::size_t k = 0; k <= 500; ++k) ASSERT_NEAR(whole.x[k], 0.15 * static_cast<double>(k), 1e-9);
+    // Negative control: in a box so long that the layer has not crossed it often, a jump is a damaged file.
+    EXPECT_EQ(without_jumps(series, 1, durations, 1e-3).x, series.x);
+}
+
 TEST_F(CyclesFile, WhatIsNotFiniteIsSeen) {
     CycleSeries series = read(whole);
     EXPECT_TRUE(is_finite(series));

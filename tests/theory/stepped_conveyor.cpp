@@ -26,7 +26,7 @@ class Stepper {
         standing_ = (std::max(p.friction, c_.static_friction) + wall) * p.tan_vibration_angle;
         landing_ = (c_.landing_friction.value_or(p.friction) + wall) * p.tan_vibration_angle;
         weight_ = 1 / p.throw_number;
-        pull_ = p.tan_inclination * p.tan_vibration_angle * weight_;
+        pull_ = p.tan_inclination * p.tan_vibration_angle / p.throw_number;
         enter_contact();
     }
     void cycle() {

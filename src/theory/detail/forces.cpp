@@ -53,7 +53,8 @@ void Forces::set_trough(Conveyor const& c) {
 }
 
 void Forces::set(Conveyor const& c) {
-    double const weight = 1 / c.point.throw_number;
+    double const gravity = 1 / c.point.throw_number;
+    double const weight = gravity;  // and a constant force normal to the trough
     same_normal_ = known_ && weight == weight_ && c.air_drag == last_.air_drag &&
                    c.restitution == last_.restitution && c.slowest_rebound == last_.slowest_rebound &&
                    same(c.normal, last_.normal);
@@ -65,7 +66,7 @@ void Forces::set(Conveyor const& c) {
     double const tan_beta = c.point.tan_vibration_angle;
     EffectiveFriction const friction = effective_friction(c);
     weight_ = weight;
-    gravity_ = c.point.tan_inclination * tan_beta * weight_;
+    gravity_ = c.point.tan_inclination * tan_beta * gravity;
     kinetic_ = friction.kinetic_friction * tan_beta;
     landing_ = friction.landing_friction * tan_beta;
     if (!same_drive) set_trough(c);

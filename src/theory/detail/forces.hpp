@@ -46,7 +46,7 @@ struct Sliding {
 /// - drag is -kappa times the velocity in space.
 ///
 /// A force that is a function of time belongs to `normal_` or `needed_`, a constant one normal to the trough
-/// to `weight_` and steepest_held(), and nowhere else.
+/// to the weight in set() and, over gravity's, as a factor to steepest_held(), and nowhere else.
 class Forces {
   public:
     /// Takes the place of the last conveyor, reusing its memory.
