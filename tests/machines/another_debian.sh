@@ -23,10 +23,11 @@ git -C "$checkout" bundle create --quiet "$root/checkout.bundle" HEAD
 exec unshare --mount sh -eu -c '
     root=$1
     shift
+    mount --bind "$root" "$root"  # so that a process inside may have mounts of its own
     mount -t proc proc "$root/proc"
     mount --rbind /dev "$root/dev"
     mount --rbind /sys "$root/sys"
-    cp /etc/resolv.conf "$root/etc/resolv.conf"
+    cp /etc/resolv.conf /etc/hosts "$root/etc/"  # a browser asks for localhost
     exec chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 sh -eu -c "
         git clone --quiet /checkout.bundle /checkout-of-vibrotrough 2>/dev/null || { cd /checkout-of-vibrotrough && git fetch --quiet origin HEAD; }
         cd /checkout-of-vibrotrough
