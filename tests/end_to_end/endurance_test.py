@@ -10,7 +10,7 @@ import unittest
 from trough_program import PROGRAM, EndToEndTest, count_cycles, engines_in, processes_in, wait_until
 
 ONE = {"measure.max_cycles": 24}
-# 24 cycles, after which it is clear that the half-width cannot be reached, take longer than a test does; there is no regular checkpoint.
+# 24 cycles, after which it is clear that the half-width cannot be reached, take longer than a test does, and no regular checkpoint is written before.
 LONG = {"layer.grains": 600, "grains.youngs_modulus": "30 MPa", "measure.packings": 2, "measure.max_packings": 2,
         "measure.max_cycles": 100_000, "measure.half_width": 0.0001, "output.checkpoint_cycles": 50_000}  # fmt: skip
 
