@@ -3,7 +3,6 @@
 #include "atlas_module.hpp"
 
 #include "atlas/tables.hpp"
-#include "atlas/unknown.hpp"
 #include "atlas/value.hpp"
 #include "theory/errors.hpp"
 #include "theory/inputs.hpp"
@@ -80,9 +79,9 @@ struct Row {
     std::uint32_t outside = 0;  ///< a bit for each of inputs(), and one for a motion without a mean speed
 };
 
-Row row_of(Layer const& layer, PartlyKnown const& atlas) {
+Row row_of(Layer const& layer) {
     KnownNumbers const numbers = numbers_of(layer);
-    Place const place = PartlyKnown::place_of(numbers);
+    Place const place = place_of(numbers);
     Row row;
     row.velocity_scale = layer.motion.velocity_scale().value();
     for (Outside const& one : outside_ranges(place)) {
@@ -96,7 +95,7 @@ Row row_of(Layer const& layer, PartlyKnown const& atlas) {
         if (far)
             static_cast<void>(theory::solve(layer.motion.point()));
         else
-            value = atlas(numbers);
+            value = value_of(numbers);
     } catch (theory::PhaseError const&) {
         // The layer has no mean speed.
     }
@@ -114,20 +113,12 @@ class Rows {
   public:
     /// @throws std::invalid_argument "point N: why" of the first layer that is wrong
     Rows(std::vector<Layer> const& layers, int jobs) : rows(layers.size()) {
-        PartlyKnown atlas;
-        for (std::size_t i = 0; i < layers.size(); ++i) {
-            try {
-                atlas.prepare(numbers_of(layers[i]));
-            } catch (std::invalid_argument const& error) {
-                throw std::invalid_argument(at_point(i, error));
-            }
-        }
         tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
         arena.execute([&] {
             tbb::parallel_for(tbb::blocked_range<std::size_t>(0, layers.size(), 16), [&](auto const& range) {
                 for (std::size_t i = range.begin(); i < range.end(); ++i) {
                     try {
-                        rows[i] = row_of(layers[i], atlas);
+                        rows[i] = row_of(layers[i]);
                     } catch (std::invalid_argument const& error) {
                         std::lock_guard const lock(mutex_);
                         errors_[i] = at_point(i, error);

@@ -1,9 +1,9 @@
 #include "page/machine.hpp"
 
 #include "atlas/tables.hpp"
-#include "atlas/unknown.hpp"
-#include "learn/rules_of_thumb.hpp"
+#include "atlas/value.hpp"
 #include "learn/model_errors.hpp"
+#include "learn/rules_of_thumb.hpp"
 #include "theory/quantities.hpp"
 #include "theory/tested_range.hpp"
 #include "theory/unusual.hpp"
@@ -29,11 +29,9 @@ Model model_of(double rolling_friction) {
     return rolling_friction <= most ? Model::rolling_layer : Model::point_mass;
 }
 
-/// What the page does not ask of the grains. The atlas has it in the middle of its ranges.
-constexpr std::array<atlas::Input, 2> not_asked{atlas::grain_friction_input, atlas::restitution_input};
-
-/// The place of a layer in the atlas, in the order of atlas::inputs().
-atlas::Place place_of(Settings const& settings, double friction) {
+/// What the atlas is asked of a layer, in the order of atlas::inputs(). The page does not ask for the
+/// friction between grains, nor for their restitution.
+atlas::KnownNumbers numbers_of(Settings const& settings, double friction) {
     theory::PointMass const point = settings.inputs(friction).point();
     return {point.throw_number,
             point.tan_vibration_angle,
@@ -41,9 +39,13 @@ atlas::Place place_of(Settings const& settings, double friction) {
             point.friction,
             settings[Setting::stroke_mm] / 2 / settings[Setting::grain_mm],
             settings.depth_in_grains(),
-            atlas::middle_of(atlas::grain_friction_input),
+            std::nullopt,
             settings[Setting::rolling_friction],
-            atlas::middle_of(atlas::restitution_input)};
+            std::nullopt};
+}
+
+atlas::Place place_of(Settings const& settings, double friction) {
+    return atlas::place_of(numbers_of(settings, friction));
 }
 
 /// The ends of the friction's band; none when it is known exactly.
@@ -170,8 +172,8 @@ Speed Machines::speed(Settings const& settings, bool rolling) {
 
 Speed Machines::atlas_speed(Settings const& settings) {
     Speed speed{unknown, unknown, unknown, unknown, unknown, unknown, unknown, 0};
-    if (!of_not_asked_ || !outside_atlas(settings).empty()) return speed;
-    auto const value = atlas::value_at(place_of(settings, settings[Setting::friction]));
+    if (!layers_ || !outside_atlas(settings).empty()) return speed;
+    auto const value = atlas::value_of(numbers_of(settings, settings[Setting::friction]));
     if (!value) return speed;
     double low = value->efficiency, high = low;
     for (double const friction : ends_of_friction(settings)) {
@@ -180,24 +182,18 @@ Speed Machines::atlas_speed(Settings const& settings) {
         low = std::min(low, *eta);
         high = std::max(high, *eta);
     }
-    double const error = std::hypot(value->half_width, atlas::deviations_in_half_width * *of_not_asked_);
     double const scale = settings.inputs().velocity_scale().value();
     speed.efficiency = value->efficiency;
     speed.speed = scale * speed.efficiency;
-    speed.low = scale * (low - error);
-    speed.high = scale * (high + error);
+    speed.low = scale * (low - value->half_width);
+    speed.high = scale * (high + value->half_width);
     add_flow(speed, settings);
     return speed;
 }
 
-bool Machines::prepare_atlas() {
+void Machines::prepare_atlas() {
     last_.reset();
-    if (!layers_) {
-        layers_ = atlas::simulated_layers();
-    } else if (!of_not_asked_) {
-        of_not_asked_ = atlas::sd_of_unknown(not_asked);
-    }
-    return of_not_asked_.has_value();
+    layers_ = atlas::simulated_layers();
 }
 
 Answer Machines::operator()(Settings const& settings) {

@@ -103,9 +103,9 @@ class Machines {
     /// @throws std::invalid_argument when a setting has no sense
     Answer operator()(Settings const& settings);
 
-    /// Gets a part of the atlas ready, which takes longer than a first answer may: answers before that are
-    /// those outside of it. @return whether all of it is ready
-    bool prepare_atlas();
+    /// Gets the atlas ready, which takes longer than a first answer may: answers before that are those
+    /// outside of it.
+    void prepare_atlas();
 
     /// Efficiency and mode of a rolling layer of grains with a rolling friction; without one, of a point
     /// mass.
@@ -118,8 +118,7 @@ class Machines {
     Answer answered(Settings const& settings);
 
     std::optional<std::pair<Settings, Answer>> last_;
-    std::optional<int> layers_;           ///< of the atlas, when its surface is ready
-    std::optional<double> of_not_asked_;  ///< standard deviation, in velocity efficiency, when it is known
+    std::optional<int> layers_;  ///< of the atlas, when its surface is ready
     theory::EfficiencySolver mass_;
     std::optional<std::pair<double, theory::RollingLayerSolver>> layer_;  ///< the last, by rolling friction
 };

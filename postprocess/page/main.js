@@ -171,9 +171,9 @@ async function start() {
   requestAnimationFrame(() => setTimeout(prepareAtlas));
 }
 
-/// The first answer does not wait for the atlas, which gets ready in parts between the frames after it.
+/// The first answer does not wait for the atlas.
 function prepareAtlas() {
-  if (!page.theory.prepareAtlas()) { setTimeout(prepareAtlas); return; }
+  page.theory.prepareAtlas();
   document.documentElement.dataset.atlas = performance.now();
   curves.fill(null);
   changed();

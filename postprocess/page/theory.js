@@ -35,8 +35,7 @@ class Theory {
     return answer;
   }
 
-  /// Gets a part of the atlas ready. @return whether all of it is
-  prepareAtlas() { return this.module._page_prepare_atlas() === 1; }
+  prepareAtlas() { this.module._page_prepare_atlas(); }
 
   answer(settings) {
     this.give(settings);

@@ -165,11 +165,9 @@ char const* page_mode(int number) {
     return text.c_str();
 }
 
-/// Gets a part of the atlas ready. @return whether all of it is
+/// Gets the atlas ready.
 int page_prepare_atlas() {
-    bool ready = true;
-    guarded([&] { ready = machines().prepare_atlas(); });
-    return ready ? 1 : 0;
+    return guarded([] { machines().prepare_atlas(); });
 }
 
 /// @param numbers  in the order of answer_names()

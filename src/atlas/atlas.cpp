@@ -1,7 +1,6 @@
 #include "atlas/atlas.hpp"
 
 #include "atlas/tables.hpp"
-#include "atlas/unknown.hpp"
 #include "theory/point_mass.hpp"
 
 #include <algorithm>
@@ -12,8 +11,6 @@
 namespace vibrotrough::atlas {
 namespace {
 
-/// Side walls further apart than this, in diameters, do not slow the layer down.
-constexpr double least_width = 20;
 /// The atlas' layers have a spread of 0.1; others may be this far from it.
 constexpr double least_spread = 0.05, most_spread = 0.2;
 /// Grain and trough have the same restitution in the atlas; others may be so far apart.
@@ -37,9 +34,8 @@ std::vector<Outside> of_another_kind(prepare::PreparedCase const& p) {
     // An open trough has walls; smooth ones stand for a piece out of a wide trough.
     bool const has_walls =
         p.domain.open ? s.trough.side_wall_friction > 0.0 : s.trough.side_wall_friction.has_value();
-    add(has_walls && s.layer.width < least_width * diameter, "trough.side_wall_friction",
-        fmt::format("side walls {:.3g} diameters apart (at least {:g})", s.layer.width / diameter,
-                    least_width));
+    if (auto const why = has_walls ? why_too_narrow(s.layer.width / diameter) : std::nullopt)
+        add(true, "trough.side_wall_friction", *why);
     add(p.domain.has_mesh(), "trough.mesh", "a trough of your own");
     add(p.domain.screen.has_value(), "screen", "a screen");
     add(!p.stages.empty(), "stages", "a drive in stages");

@@ -48,6 +48,17 @@ std::vector<SurfaceInput> const& inputs() {
     return all;
 }
 
+double middle_of(Input input) {
+    return inputs()[input].value_at(0.5);
+}
+
+Place place_of(KnownNumbers const& numbers) {
+    Place place;
+    for (std::size_t input = 0; input < numbers.size(); ++input)
+        place.push_back(numbers[input].value_or(middle_of(static_cast<Input>(input))));
+    return place;
+}
+
 double trend_of(double rolling_layer, double theory) {
     return std::min(rolling_layer, std::max(theory, 1.0));
 }

@@ -33,6 +33,16 @@ enum Input : std::size_t {
 /// table of layers.
 std::vector<SurfaceInput> const& inputs();
 
+/// The middle of an input's range (of its logarithm where it is scaled so), which stands for an input that is
+/// not known.
+double middle_of(Input input);
+
+/// The numbers of a layer in the order of inputs(), as far as they are known.
+using KnownNumbers = std::vector<std::optional<double>>;
+
+/// The place of a layer, with what is not known in the middle of its range.
+Place place_of(KnownNumbers const& numbers);
+
 /// The trend of the atlas: the velocity efficiency of the rolling-layer law with its published constants, to
 /// whose dry torque rolling friction adds; but no more than 1 or that of the point mass, because downhill the
 /// law says up to 1.4 of layers that have 1.0 to 1.15.

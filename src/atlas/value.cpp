@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -49,10 +50,31 @@ SurfaceValue with_scatter(SurfaceValue const& value) {
     return {value.efficiency, std::hypot(value.half_width, scatter, numerical_error())};
 }
 
+/// Of the efficiency at a place, when an input lies anywhere in its range: by the three points of Gauss and
+/// Legendre (M. Abramowitz and I.A. Stegun, Handbook of Mathematical Functions, 25.4.30).
+double variance_by(Input input, Place place) {
+    double known = 0, sum = 0, squares = 0;
+    for (auto const& [weight, away] : {std::pair{5., -std::sqrt(0.6)}, {8., 0.}, {5., std::sqrt(0.6)}}) {
+        place[input] = inputs()[input].value_at((1 + away) / 2);
+        auto const efficiency = efficiency_at(place);
+        if (!efficiency) continue;
+        known += weight;
+        sum += weight * *efficiency;
+        squares += weight * *efficiency * *efficiency;
+    }
+    return known > 0 ? std::max(0.0, squares / known - sum * sum / (known * known)) : 0;
+}
+
 }  // namespace
 
 std::string range_text(std::string_view name, double value, double low, double high) {
     return fmt::format("{} {:.3g} (the atlas has {:g} to {:g})", name, value, low, high);
+}
+
+std::optional<std::string> why_too_narrow(double width) {
+    constexpr double least = 20;
+    if (width >= least) return {};
+    return fmt::format("side walls {:.3g} diameters apart (at least {:g})", width, least);
 }
 
 std::vector<Outside> outside_ranges(Place const& place) {
@@ -135,6 +157,17 @@ std::optional<SurfaceValue> value_at(Place const& place) {
     auto const trend = trend_at(place);
     if (!trend) return {};
     return with_scatter(surface().at(place, *trend));
+}
+
+std::optional<SurfaceValue> value_of(KnownNumbers const& numbers) {
+    Place const place = place_of(numbers);
+    auto value = value_at(place);
+    if (!value) return {};
+    double variance = 0;
+    for (std::size_t input = 0; input < numbers.size(); ++input)
+        if (!numbers[input]) variance += variance_by(static_cast<Input>(input), place);
+    value->half_width = std::hypot(value->half_width, deviations_in_half_width * std::sqrt(variance));
+    return value;
 }
 
 std::optional<SurfaceValue> near_value_at(Place const& place) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "atlas/surface.hpp"
+#include "atlas/tables.hpp"
 
 #include <optional>
 #include <string>
@@ -42,6 +42,10 @@ double distance_between(Place const& one, Place const& other);
 /// beyond their own intervals, and their numerical errors.
 std::optional<SurfaceValue> value_at(Place const& place);
 
+/// The same of a layer of which not everything is known: what is not known is in the middle of its range, and
+/// the half-width contains what it changes there when it lies anywhere in its range, each input alone.
+std::optional<SurfaceValue> value_of(KnownNumbers const& numbers);
+
 /// value_at() in a twentieth of the time, nearly: by one draw of the hyperparameters. For searches.
 std::optional<SurfaceValue> near_value_at(Place const& place);
 
@@ -63,6 +67,10 @@ bool is_far_outside(Place const& place);
 
 /// The nearest place within the ranges of the atlas.
 Place within_ranges(Place place);
+
+/// Why side walls slow a layer down more than those of the atlas have it, which have none: "side walls 6
+/// diameters apart (at least 20)"; nothing where they are far enough apart. @param width  in diameters
+std::optional<std::string> why_too_narrow(double width);
 
 /// What is said of a number outside of its range: "depth 30 (the atlas has 3 to 20)".
 std::string range_text(std::string_view name, double value, double low, double high);

@@ -1,7 +1,6 @@
 #include "learn/atlas_design_model.hpp"
 
 #include "atlas/tables.hpp"
-#include "atlas/unknown.hpp"
 #include "atlas/value.hpp"
 #include "core/error.hpp"
 
@@ -151,9 +150,8 @@ class AtlasSpeeds : public SpeedModel {
         last = {place, {}, 0};
         for (OpenInput const& one : inputs_) {
             if (one.value.sd <= 0) continue;
-            auto const [low, high] = range_of(one.input);
-            double const sd = deviation_of(one.value, [&, low = low, high = high](double value) {
-                place[one.input] = std::clamp(value, low, high);
+            double const sd = deviation_within(range_of(one.input), one.value, [&](double value) {
+                place[one.input] = value;
                 return is_near ? atlas::near_efficiency_at(place) : atlas::efficiency_at(place);
             });
             place[one.input] = one.value.mean;

@@ -1,6 +1,7 @@
 #include "learn/driven_design.hpp"
 
-#include "atlas/unknown.hpp"
+#include "atlas/tables.hpp"
+#include "atlas/value.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,7 @@ double material_on(DesignTask const& task, double depth) {
 std::optional<atlas::LayerLoad> load_of(DesignTask const& task, RiskDesign const& design) {
     if (!task.grain_diameter) return {};
     theory::Drive const& drive = design.drive;
-    atlas::Place const place = atlas::PartlyKnown::place_of(
+    atlas::Place const place = atlas::place_of(
         {design.throw_number, std::tan(drive.vibration_angle), std::tan(drive.inclination),
          task.friction.median, drive.amplitude / *task.grain_diameter, design.depth / *task.grain_diameter,
          std::nullopt, task.rolling_friction, std::nullopt});

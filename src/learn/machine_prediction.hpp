@@ -4,6 +4,7 @@
 #include "atlas/value.hpp"
 #include "learn/atlas_design_model.hpp"
 #include "theory/drive.hpp"
+#include "theory/point_mass.hpp"
 
 #include <optional>
 #include <string>
@@ -13,20 +14,21 @@ namespace vibrotrough::learn {
 
 /// A machine that exists, and the material on it as far as it is known.
 struct ExistingMachine {
-    theory::Drive drive;                      ///< as it runs
-    Uncertain friction;                       ///< of the material on the trough
-    KnownGrains grains = {};                  ///< of the material
-    std::optional<double> depth = {};         ///< m, of the layer
-    std::optional<double> width = {};         ///< m, of the trough
-    std::optional<double> bulk_density = {};  ///< kg/m^3
+    theory::Drive drive;                         ///< as it runs
+    Uncertain friction;                          ///< of the material on the trough
+    KnownGrains grains = {};                     ///< of the material
+    std::optional<double> depth = {};            ///< m, of the layer
+    std::optional<double> width = {};            ///< m, of the trough
+    std::optional<Uncertain> bulk_density = {};  ///< kg/m^3
 };
 
 /// What a model says of a machine.
 struct MachinePrediction {
     double throw_number, machine_number;  ///< Gamma and K
     double trough_speed;                  ///< omega r cos(beta), m/s
-    std::optional<double> point_mass;     ///< velocity efficiency; none when it runs away
+    std::optional<double> point_mass;     ///< velocity efficiency; none without a mean speed
     std::string point_mass_mode;          ///< letters of its phases
+    theory::Outcome point_mass_outcome;   ///< why there is none
     /// Velocity efficiency of the layer with the half-width of its 95 % interval, which holds what is not
     /// known of grains, depth and friction; none where no model knows the layer.
     std::optional<atlas::SurfaceValue> layer = {};
@@ -36,7 +38,8 @@ struct MachinePrediction {
     std::optional<atlas::LikelyMode> mode = {};  ///< of the layer, by the atlas
     std::vector<atlas::Outside> outside = {};    ///< of the atlas: extrapolated, or not known at all
     std::vector<std::string> unknown = {};       ///< what nobody gave, for people
-    std::optional<double> flow_per_speed = {};   ///< kg/m, mass flow over speed; none where not all is known
+    std::optional<Uncertain> flow_per_speed =
+        {};  ///< kg/m, mass flow over speed; none where not all is known
 };
 
 /// Predicts the conveying speed of a layer on a machine that exists: by the atlas of simulated layers, and by
@@ -46,7 +49,7 @@ struct MachinePrediction {
 MachinePrediction predict_machine(ExistingMachine const& machine);
 
 /// m, the sizes of grains for which the atlas has the stroke of a machine and, where it is known, the depth
-/// of its layer.
+/// of its layer; the first may be above the second: there are none.
 theory::Range known_sizes(ExistingMachine const& machine);
 
 }  // namespace vibrotrough::learn

@@ -45,4 +45,18 @@ double deviation_of(Uncertain const& number, std::function<std::optional<double>
     return std::sqrt(std::max(0.0, squares / known - sum * sum / (known * known)));
 }
 
+double deviation_within(theory::Range const& known, Uncertain const& number,
+                        std::function<std::optional<double>(double)> const& value_at) {
+    auto const middle = value_at(number.mean);
+    return deviation_of(number, [&](double value) -> std::optional<double> {
+        double last = std::clamp(value, known.low, known.high);
+        // A mean at the end of the range has its slope on the other side.
+        if (last == number.mean) last = std::clamp(2 * number.mean - value, known.low, known.high);
+        if (value == last || value == number.mean || last == number.mean) return value_at(value);
+        auto const there = value_at(last);
+        if (!there || !middle) return {};
+        return *middle + (*there - *middle) * (value - number.mean) / (last - number.mean);
+    });
+}
+
 }  // namespace vibrotrough::learn

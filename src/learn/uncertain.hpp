@@ -1,5 +1,7 @@
 #pragma once
 
+#include "theory/drive.hpp"
+
 #include <array>
 #include <functional>
 #include <optional>
@@ -43,5 +45,10 @@ std::array<UncertainNode, 3> nodes_of(Uncertain const& number);
 /// Standard deviation of what follows from a number that is not known exactly, by these nodes. Those from
 /// which nothing follows are left out; 0 where nothing does.
 double deviation_of(Uncertain const& number, std::function<std::optional<double>(double)> const& value_at);
+
+/// The same where what follows is known within a range only: beyond it, it goes on with the slope from the
+/// mean to the end of the range.
+double deviation_within(theory::Range const& known, Uncertain const& number,
+                        std::function<std::optional<double>(double)> const& value_at);
 
 }  // namespace vibrotrough::learn

@@ -1,7 +1,6 @@
 #include "atlas/atlas.hpp"
 
 #include "atlas/tables.hpp"
-#include "atlas/unknown.hpp"
 #include "core/csv.hpp"
 #include "prepare/prepared_case.hpp"
 #include "scenario/example_campaign.hpp"
@@ -202,23 +201,13 @@ TEST(Atlas, TheLayersFillTheRanges) {
     }
 }
 
-// What is not known is in the middle of its range and widens the interval: by the root of the sum of squares
-// of what sd_of_unknown() says, in 1.96 standard deviations.
-TEST(Atlas, WhatIsNotKnownWidensTheInterval) {
-    KnownNumbers numbers{2, 0.5, 0, 0.3, 2, 4, 0.55, 0.1, 0.6026};
-    PartlyKnown atlas;
-    EXPECT_THROW(static_cast<void>(atlas(numbers)), std::logic_error);
-    atlas.prepare(numbers);
-    SurfaceValue const whole = value_at(PartlyKnown::place_of(numbers)).value();
-    EXPECT_EQ(atlas(numbers)->half_width, whole.half_width);
-    numbers[grain_friction_input].reset();
-    numbers[restitution_input].reset();
-    atlas.prepare(numbers);
-    SurfaceValue const partly = atlas(numbers).value();
-    EXPECT_NEAR(partly.efficiency, whole.efficiency, 1e-12);  // 0.55 and 0.6026 are the middles of the ranges
-    double const added = 1.96 * sd_of_unknown(std::vector{grain_friction_input, restitution_input});
-    EXPECT_NEAR(partly.half_width, std::hypot(whole.half_width, added), 1e-4 * added);  // 1.95996 sd
-    EXPECT_GT(partly.half_width, whole.half_width);
+// What is not known is in the middle of its range, of its logarithm for the depth: sqrt(3 * 20).
+TEST(Atlas, WhatIsNotKnownIsInTheMiddle) {
+    KnownNumbers numbers{2, 0.5, 0, 0.3, 2, {}, 0.55, {}, 0.6026};
+    Place const place = place_of(numbers);
+    EXPECT_NEAR(place[depth_input], std::sqrt(60), 1e-12);
+    EXPECT_NEAR(place[rolling_friction_input], 0.1, 1e-12);
+    EXPECT_EQ(place[friction_input], 0.3);
 }
 
 // The difference between two places is that of what the atlas says of them, and is known better than by two

@@ -114,7 +114,7 @@ async function main() {
   const text = (pointer) => theory.UTF8ToString(pointer);
   const names = JSON.parse(text(theory._page_names())), width = names.answer.length, count = names.settings.length;
   assert.strictEqual(width, 40, "native_answers.cpp has this number, too");
-  while (theory._page_prepare_atlas() === 0) { /* in parts */ }
+  theory._page_prepare_atlas();
   const input = theory._malloc(8 * count), output = theory._malloc(8 * width * CURVE * 10);
   const isMode = (i) => names.answer[i % width].endsWith("_mode");
   const inGerman = germanSpeaker(), said = new Set();

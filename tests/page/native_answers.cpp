@@ -58,8 +58,7 @@ Numbers found(std::size_t size, Function const& function) {
 
 int main(int, char** files) {
     Numbers const settings = read(files[1]);
-    while (page_prepare_atlas() == 0) {
-    }
+    page_prepare_atlas();
     std::ofstream words(files[6]), letters(files[7]);
     for (std::size_t i = 0; i * vibrotrough::page::setting_count < settings.size(); ++i) {
         double const* const one = settings.data() + i * vibrotrough::page::setting_count;

@@ -1,6 +1,7 @@
 #include "app/commands/predict_machine.hpp"
 
 #include "app/commands/command.hpp"
+#include "app/commands/theory/options.hpp"
 #include "atlas/tables.hpp"
 #include "core/text.hpp"
 #include "learn/machine_prediction.hpp"
@@ -10,14 +11,24 @@ namespace {
 
 using learn::MachinePrediction;
 
-/// What a prediction says of the layer.
-struct Speeds {
-    double layer, half_width;  ///< m/s, the 95 % interval
+/// A number with its 95 % interval.
+struct Predicted {
+    double value, half_width;
 };
 
-std::optional<Speeds> speeds_of(MachinePrediction const& p) {
+/// m/s
+std::optional<Predicted> speed_of(MachinePrediction const& p) {
     if (!p.layer) return {};
-    return Speeds{p.layer->efficiency * p.trough_speed, p.layer->half_width * p.trough_speed};
+    return Predicted{p.layer->efficiency * p.trough_speed, p.layer->half_width * p.trough_speed};
+}
+
+/// t/h
+std::optional<Predicted> mass_flow_of(MachinePrediction const& p) {
+    auto const speed = speed_of(p);
+    if (!speed || !p.flow_per_speed) return {};
+    double const by_density = atlas::deviations_in_half_width * p.flow_per_speed->sd * speed->value;
+    return Predicted{3.6 * p.flow_per_speed->mean * speed->value,
+                     3.6 * std::hypot(p.flow_per_speed->mean * speed->half_width, by_density)};
 }
 
 std::optional<double> of_point_mass(MachinePrediction const& p) {
@@ -25,19 +36,16 @@ std::optional<double> of_point_mass(MachinePrediction const& p) {
 }
 
 Json as_json(MachinePrediction const& p) {
-    auto const speeds = speeds_of(p);
-    auto const flow = [&](std::optional<double> speed) {
-        return speed && p.flow_per_speed ? Json(3.6 * *p.flow_per_speed * *speed) : Json(nullptr);
-    };
+    auto const speed = speed_of(p), flow = mass_flow_of(p);
     Json outside = Json::array();
     for (atlas::Outside const& one : p.outside) outside.push_back(one.why);
-    auto const part = [&](double Speeds::*of) {
-        return speeds ? std::optional((*speeds).*of) : std::nullopt;
+    auto const part = [](std::optional<Predicted> const& one, double Predicted::*of) {
+        return one ? Json((*one).*of) : Json(nullptr);
     };
-    return {{"speed_m_per_s", number_or_null(part(&Speeds::layer))},
-            {"speed_half_width_m_per_s", number_or_null(part(&Speeds::half_width))},
-            {"mass_flow_t_per_h", flow(part(&Speeds::layer))},
-            {"mass_flow_half_width_t_per_h", flow(part(&Speeds::half_width))},
+    return {{"speed_m_per_s", part(speed, &Predicted::value)},
+            {"speed_half_width_m_per_s", part(speed, &Predicted::half_width)},
+            {"mass_flow_t_per_h", part(flow, &Predicted::value)},
+            {"mass_flow_half_width_t_per_h", part(flow, &Predicted::half_width)},
             {"efficiency", p.layer ? Json(p.layer->efficiency) : Json(nullptr)},
             {"half_width", p.layer ? Json(p.layer->half_width) : Json(nullptr)},
             {"throw_number", p.throw_number},
@@ -71,55 +79,57 @@ std::string why_different(MachinePrediction const& p) {
         all, rolling, all - rolling);
 }
 
-std::string flow_line(MachinePrediction const& p, std::optional<Speeds> const& speeds) {
+std::string flow_line(MachinePrediction const& p) {
     if (!p.flow_per_speed) return "not known: write --width, --layer-depth and --bulk-density";
-    if (!speeds) return "not known";
-    double const per_speed = 3.6 * *p.flow_per_speed;
-    return fmt::format("{} +- {} t/h", core::plain_number(per_speed * speeds->layer, 3),
-                       core::plain_number(per_speed * speeds->half_width, 2));
+    auto const flow = mass_flow_of(p);
+    if (!flow) return "not known";
+    return fmt::format("{} +- {} t/h", core::plain_number(flow->value, 3),
+                       core::plain_number(flow->half_width, 2));
 }
 
-std::string speed_line(MachinePrediction const& p, std::optional<Speeds> const& speeds) {
-    if (!speeds) return "not known";
+std::string speed_line(MachinePrediction const& p) {
+    auto const speed = speed_of(p);
+    if (!speed) return "not known";
     return fmt::format("{:.3f} +- {:.3f} m/s (95 %), velocity efficiency {:.3f} +- {:.3f}, by {}",
-                       speeds->layer, speeds->half_width, p.layer->efficiency, p.layer->half_width,
+                       speed->value, speed->half_width, p.layer->efficiency, p.layer->half_width,
                        p.by_rolling
                            ? fmt::format("the atlas of {} simulated layers", atlas::simulated_layers())
                            : "the point mass and what it misses at such layers");
 }
 
-/// What the sizes of a mix change: the speed of layers of the smallest and of the largest, as far as the
-/// atlas goes.
+/// What the sizes of a mix change: the speed of layers of the smallest and of the largest that the atlas has;
+/// empty where it has none.
 std::string by_sizes(learn::ExistingMachine machine, std::optional<theory::Range> const& sizes) {
     if (!sizes || !machine.grains.diameter) return "";
     auto const [least, most] = learn::known_sizes(machine);
+    double const low = std::max(sizes->low, least), high = std::min(sizes->high, most);
     std::string text;
-    for (double const size : {std::clamp(sizes->low, least, most), std::clamp(sizes->high, least, most)}) {
+    for (double const size : {low, high}) {
+        if (low >= high) break;
         machine.grains.diameter = size;
-        auto const speeds = speeds_of(learn::predict_machine(machine));
-        if (!speeds) continue;
+        auto const speed = speed_of(learn::predict_machine(machine));
+        if (!speed) continue;
         text += fmt::format("{} spheres of {:.3g} mm at {:.3f} m/s",
-                            text.empty() ? " Alone, such a layer has" : ",", 1e3 * size, speeds->layer);
+                            text.empty() ? " Alone, such a layer has" : ",", 1e3 * size, speed->value);
     }
     return text.empty() ? "" : text + ".";
 }
 
 void print_text(MachinePrediction const& p, std::string const& material, std::string const& told) {
-    auto const speeds = speeds_of(p);
     auto const line = [](char const* name, std::string const& text) {
         if (!text.empty()) fmt::print("{:<18}{}\n", name, text);
     };
     if (!told.empty()) fmt::print("{}\n", told);
     line("material", material);
-    line("speed", speed_line(p, speeds));
-    line("mass flow", flow_line(p, speeds));
+    line("speed", speed_line(p));
+    line("mass flow", flow_line(p));
     line("throw number", fmt::format("{:.3g}; machine number {:.3g}", p.throw_number, p.machine_number));
     if (p.mode)
         line("mode", fmt::format("{}, in {} of the {} simulated layers that are most alike", p.mode->mode,
                                  p.mode->agreeing, atlas::layers_asked));
     auto const point_mass = of_point_mass(p);
-    line("point mass",
-         point_mass ? fmt::format("{:.3f} m/s, mode {}", *point_mass, p.point_mass_mode) : "runs away");
+    line("point mass", point_mass ? fmt::format("{:.3f} m/s, mode {}", *point_mass, p.point_mass_mode)
+                                  : theory::to_string(p.point_mass_outcome));
     line("why they differ", why_different(p));
     for (atlas::Outside const& one : p.outside)
         if (told.find(one.why) == std::string::npos)
@@ -176,13 +186,23 @@ learn::ExistingMachine MachineOptions::machine() const {
                       quantities_.uncertain("--grain-friction")};
     machine.depth = quantities_.value("--layer-depth");
     machine.width = quantities_.value("--width");
-    if (auto const density = quantities_.uncertain("--bulk-density")) machine.bulk_density = density->mean;
+    machine.bulk_density = quantities_.uncertain("--bulk-density");
     return machine;
+}
+
+void MachineOptions::tell_unusual(learn::ExistingMachine const& machine) const {
+    theory::Drive const& drive = machine.drive;
+    theory::MachineNumbers numbers{drive.frequency,       drive.amplitude,       drive.machine_number(9.81),
+                                   machine.friction.mean, drive.vibration_angle, quantities_.has("--stroke"),
+                                   rpm_.has_value()};
+    if (machine.bulk_density) numbers.bulk_density = machine.bulk_density->mean;
+    app::tell_unusual(numbers);
 }
 
 bool MachineOptions::predict(PredictionFormat format) {
     material_.fill_in(quantities_);
     learn::ExistingMachine const machine = this->machine();
+    tell_unusual(machine);
     MachinePrediction prediction = learn::predict_machine(machine);
     std::string told;
     if (auto const& why = material_.why_unknown()) {

@@ -21,6 +21,7 @@ class MachineOptions {
 
   private:
     learn::ExistingMachine machine() const;
+    void tell_unusual(learn::ExistingMachine const& machine) const;
 
     QuantityOptions quantities_;
     MaterialOptions material_;
