@@ -104,13 +104,15 @@ Suspension suspension_of(MovedMachine const& machine, double frequency, double m
     if (ratio <= std::numbers::sqrt2)
         throw std::invalid_argument(fmt::format(
             "springs with a natural frequency of {:.3g} Hz isolate nothing at {:.3g} Hz", loaded, frequency));
+    // Far above the resonance the stroke is smaller than at work by this much.
+    double const far_above = 1 - 1 / (ratio * ratio);
     return {sag_of(machine, material),
             resonance_of(machine, 0),
             loaded,
             1 - 1 / (ratio * ratio - 1),
             machine.spring * amplitude,
-            passage_through_resonance(loaded, frequency, usual_start),
-            passage_through_resonance(loaded, frequency, usual_stop)};
+            far_above * passage_through_resonance(loaded, frequency, usual_start),
+            far_above * passage_through_resonance(loaded, frequency, usual_stop)};
 }
 
 double usual_drive_power(double mass, double amplitude, double frequency) {

@@ -112,8 +112,8 @@ double sag_of(MovedMachine const& machine, double material);
 ///   natural frequency, where springs isolate nothing
 Suspension suspension_of(MovedMachine const& machine, double frequency, double material, double amplitude);
 
-/// The largest amplitude over the working one while a machine without damping, far above its resonance,
-/// passes that resonance: 1 + 1.17 (omega_n / 2) sqrt(2 pi / a), with the angular acceleration a of its
+/// The largest amplitude, over the one far above the resonance, while a machine without damping passes that
+/// resonance: 1 + 1.17 (omega_n / 2) sqrt(2 pi / a), with the angular acceleration a of its
 /// motors, which is constant. The resonant part of the integral of Duhamel is one of Fresnel: by stationary
 /// phase it ends at (omega_n / 2) sqrt(2 pi / a), and overshoots by 17 %; the forced motion, 1, adds to it
 /// (after F.M. Lewis, Trans. ASME 54 (1932) 253-261).
