@@ -102,7 +102,8 @@ std::vector<learn::ComparedLayer> compared(learn::DesignTask const& task,
         for (learn::DesignModel const& model : task.models) {
             auto const said = model.at({layer.drive, layer.depth}, layer.friction);
             if (!said) continue;
-            double const missed = std::hypot(said->statistics_sd, model.missed(layer.drive, {}));
+            double const missed = std::hypot(
+                said->statistics_sd, model.missed(layer.drive, task.in_grains(layer.depth), task.confidence));
             all.push_back({layer.friction, model.name, said->efficiency,
                            atlas::deviations_in_half_width * missed, layer.efficiency,
                            std::hypot(layer.statistics_half_width, layer.numerical_error)});

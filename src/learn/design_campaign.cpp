@@ -15,12 +15,15 @@
 namespace vibrotrough::learn {
 namespace {
 
-/// The section of a campaign that varies the friction, by three values; empty when they are the same to three
-/// digits.
+/// The section of a campaign that varies the friction, by its median and the ends of its central 95 %, which
+/// count as two standard deviations of a normal distribution; empty when they are the same to three digits.
 std::string friction_sweep(KnownFriction const& known) {
     std::set<std::string> ends;
-    for (double const mu :
-         {known.low + (known.median - known.low) / 3, known.high - (known.high - known.median) / 3})
+    auto const [low, high] =
+        known.draws.empty()
+            ? theory::Range{std::max(known.low, known.median - 2 * known.sd), known.median + 2 * known.sd}
+            : known.central(0.95);
+    for (double const mu : {low, high})
         if (fmt::format("{:.3f}", mu) != fmt::format("{:.3f}", known.median))
             ends.insert(fmt::format("{:.3f}", mu));
     if (ends.empty()) return "";
