@@ -54,7 +54,7 @@ SpeedDistribution without(SpeedDistribution speeds, SourceInParts const& source)
 
 std::vector<BudgetShare> budget_of(DesignTask const& task, DesignLayer const& layer, std::string const& model,
                                    ModelEfficiency const& median, SpeedDistribution const& speeds) {
-    if (std::ranges::any_of(speeds.means, [](double mean) { return mean < -100; })) return {};
+    if (speeds.may_run_away()) return {};
     double const trough_speed = layer.drive.trough_speed();
     double const flow = task.bulk_density * task.width * layer.depth;
     double const sure = speeds.exceeded_with(task.confidence);

@@ -20,7 +20,8 @@ constexpr double worth_explaining = 0.1;  // of the speed
 
 /// A rule of thumb of makers beside the answer.
 struct Rule {
-    char const *formula, *source;
+    std::string formula;
+    char const* source;
     double speed;      ///< m/s
     double low, high;  ///< m/s, what is used of it in practice
     std::string told;  ///< in the answer, without the end of the line
@@ -32,10 +33,12 @@ std::string why_different(RiskDesign const& d, double low, double high, std::str
     ModelForecast const& answer = d.forecasts.front();
     double const speed = answer.median_speed;
     if (low <= (1 + worth_explaining) * speed && high >= (1 - worth_explaining) * speed) return "";
-    double const nearest = low > speed ? low : high;
-    return fmt::format("That is {:.0f} % {} than {} says ({:.3g} m/s): {}.",
-                       100 * std::abs(nearest / speed - 1), nearest > speed ? "more" : "less", answer.model,
-                       speed, reason);
+    double const nearest = low > speed ? low : high, ratio = nearest / speed;
+    // Beside a layer that hardly moves a percentage says nothing.
+    std::string const far = ratio > 0 && ratio < 3 ? fmt::format("{:.0f} % {}", 100 * std::abs(ratio - 1),
+                                                                 ratio > 1 ? "more" : "less")
+                                                   : "much more";
+    return fmt::format("That is {} than {} says ({:.3g} m/s): {}.", far, answer.model, speed, reason);
 }
 
 /// The rule of Daesung is a share of the trough's speed, which throw number and friction do not change.
@@ -48,13 +51,14 @@ Rule daesung(RiskDesign const& d) {
         "friction and depth, and here the answer is {:.2g} of it, at throw number {:.3g}",
         low / trough, high / trough, d.forecasts.front().median_speed / trough, d.throw_number);
     return {
-        "v = 3.81 N S, of which 70 to 80 % are used in practice",
+        "v = 3.81 N S (m/min, with N in 1/min and the amplitude S in m), of which 70 to 80 % are used in "
+        "practice",
         source,
         rule,
         low,
         high,
         fmt::format("{:.3g} m/s, of which 70 to 80 % are used in practice: {:.3g} to {:.3g} m/s (v = 3.81 "
-                    "N S;\n  {})",
+                    "N S in m/min,\n  with N in 1/min and the amplitude S in m; {})",
                     rule, low, high, source),
         why_different(d, low, high, reason)};
 }
@@ -62,12 +66,15 @@ Rule daesung(RiskDesign const& d) {
 Rule without_slip(RiskDesign const& d) {
     double const rule = speed_without_slip(d.drive);
     char const* const source = "after VDI 2333, vibrationsfoerdertechnik.de";
-    Rule found{"no slip, flight of n cycles: v = g n^2 cot(beta) / (2 f)", source, rule, rule, rule, "", ""};
+    std::string const formula = d.drive.inclination == 0
+                                    ? "v = g n^2 cot(beta) / (2 f)"
+                                    : "v = g n^2 (cos(alpha) cot(beta) - sin(alpha)) / (2 f)";
+    Rule found{"no slip, flight of n cycles: " + formula, source, rule, rule, rule, "", ""};
     if (rule <= 0) {
         found.told = fmt::format("none for a trough that does not throw ({})", source);
         return found;
     }
-    found.told = fmt::format("{:.3g} m/s without slip: v = g n^2 cot(beta) / (2 f) ({})", rule, source);
+    found.told = fmt::format("{:.3g} m/s without slip: {} ({})", rule, formula, source);
     found.why_different =
         why_different(d, rule, rule,
                       "the rule lets the material move with the trough whenever it touches it, whatever the "

@@ -25,9 +25,10 @@ std::string exciter_text(DesignTask const& task, RiskDesign const& design);
 /// The same for programs; null where the task says nothing of the machine.
 nlohmann::ordered_json exciter_json(DesignTask const& task, RiskDesign const& design);
 
-/// m, the depth of the layer that carries a mass flow (kg/s) on the machine, by the first model at the median
-/// of the friction: thinner than the design's, which carries it surely.
-double depth_at(DesignTask const& task, RiskDesign const& design, double mass_flow);
+/// m, the depth of the layer that carries a mass flow (kg/s) on the machine, by the model that answers first,
+/// at the median of the friction: thinner than the design's, which carries it surely; nothing where a layer
+/// of an allowed depth does not.
+std::optional<double> depth_at(DesignTask const& task, RiskDesign const& design, double mass_flow);
 
 /// m, by how much side walls stand above the trough, as usual: half of the layer above it, but 50 mm at
 /// least, in steps of 10 mm. @param depth  m, of the design's layer

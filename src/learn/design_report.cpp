@@ -101,8 +101,10 @@ std::string machine_text(DesignTask const& t, RiskDesign const& d) {
     text += finer_steps(t, m);
     text += fmt::format("layer depth       {:.4g} mm\n", std::round(1e4 * d.depth) / 10);
     double const nominal = t.mass_flow / t.surge;
-    text += fmt::format("in operation      {:.0f} mm deep at {} t/h and the most likely speed{}\n",
-                        1e3 * depth_at(t, d, nominal), core::plain_number(tonnes_per_hour * nominal, 4),
+    if (auto const depth = depth_at(t, d, nominal))
+        text +=
+            fmt::format("in operation      {:.0f} mm deep at {} t/h and the most likely speed{}\n",
+                        1e3 * *depth, core::plain_number(tonnes_per_hour * nominal, 4),
                         t.surge > 1 ? fmt::format("; made for a surge of {:g} times as much", t.surge) : "");
     text += fmt::format("side walls        {:.0f} mm or higher (half of the layer, or 50 mm, above it)\n",
                         1e3 * side_wall(d.depth));
@@ -152,7 +154,8 @@ std::string row_of(ModelForecast const& f, bool is_known) {
     auto const flow = [](double value) { return core::plain_number(tonnes_per_hour * value, 3); };
     return fmt::format("{:<24} {:>9.3g} {:>9} {:>10} {:>17} {:>12}\n", f.model, f.median_speed,
                        known(fmt::format("{:.3g}", f.sure_speed)), flow(f.median_flow),
-                       known(fmt::format("{} to {}", flow(f.low_flow), flow(f.high_flow))),
+                       known(fmt::format("{} to {}", std::isfinite(f.low_flow) ? flow(f.low_flow) : "none",
+                                         flow(f.high_flow))),
                        known(fmt::format("{:.1f} %", 100 * f.probability)));
 }
 
@@ -276,6 +279,7 @@ std::string design_text(DesignTask const& t, RiskDesign const& d) {
 Json design_json(DesignTask const& t, RiskDesign const& d) {
     theory::Drive const& m = d.drive;
     auto const by_atlas = atlas_power(t, d);
+    auto const in_operation = depth_at(t, d, t.mass_flow / t.surge);
     Json json{{"task", as_json(t)},
               {"feasible", d.feasible},
               {"sentence", first_sentence(t, d)},
@@ -286,7 +290,7 @@ Json design_json(DesignTask const& t, RiskDesign const& d) {
               {"vibration_angle_deg", m.vibration_angle / degree},
               {"inclination_deg", m.inclination / degree},
               {"layer_depth_mm", 1e3 * d.depth},
-              {"depth_in_operation_mm", 1e3 * depth_at(t, d, t.mass_flow / t.surge)},
+              {"depth_in_operation_mm", in_operation ? Json(1e3 * *in_operation) : Json(nullptr)},
               {"side_wall_mm", 1e3 * side_wall(d.depth)},
               {"throw_number", d.throw_number},
               {"machine_number", d.machine_number},

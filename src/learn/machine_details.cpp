@@ -173,19 +173,26 @@ Json exciter_json(DesignTask const& t, RiskDesign const& d) {
             {"springs", springs_json(m)}};
 }
 
-double depth_at(DesignTask const& t, RiskDesign const& d, double mass_flow) {
+std::optional<double> depth_at(DesignTask const& t, RiskDesign const& d, double mass_flow) {
     constexpr int rounds = 20;
     constexpr double close = 1e-4;  // relative
+    ModelForecast const& answer = d.forecasts.front();
+    // Where another model stands in, the first one does not know the layer.
+    auto const found = std::ranges::find(t.models, answer.model, &DesignModel::name);
+    DesignModel const* const model = found != t.models.end()                          ? &*found
+                                     : t.stand_in && t.stand_in->name == answer.model ? &*t.stand_in
+                                                                                      : nullptr;
     double depth = d.depth * mass_flow / t.mass_flow;
     for (int i = 0; i < rounds; ++i) {
-        auto const value = t.models.front().at({d.drive, depth}, t.friction.median);
-        double const speed = value && value->efficiency > 0 ? value->efficiency * d.drive.trough_speed()
-                                                            : d.forecasts.front().median_speed;
+        auto const value = model ? model->at({d.drive, depth}, t.friction.median) : std::nullopt;
+        double const speed =
+            value && value->efficiency > 0 ? value->efficiency * d.drive.trough_speed() : answer.median_speed;
         double const next =
             std::clamp(mass_flow / (t.bulk_density * t.width * speed), d.depth / 10, 10 * d.depth);
         if (std::abs(next / depth - 1) < close) break;
         depth = (depth + next) / 2;
     }
+    if (!(depth > 0 && depth <= std::max(d.depth, t.depth.high))) return {};
     return depth;
 }
 

@@ -1,5 +1,6 @@
 #include "learn/risk_design.hpp"
 
+#include "atlas/value.hpp"
 #include "core/error.hpp"
 #include "learn/budget.hpp"
 #include "learn/machine_keys.hpp"
@@ -22,6 +23,7 @@ namespace {
 constexpr double near_limit = 0.01;        // relative: a limit so close counts as active
 constexpr double largest_loss = 0.005;     // of the merit, by rounding the drive
 constexpr double least_draws_in_tail = 5;  // of a posterior, beyond the confidence
+constexpr double least_speed = -100;       // m/s: below it, the material runs away
 
 void check(DesignTask const& t) {
     theory::check(t.space);
@@ -166,19 +168,21 @@ void describe_motion(DesignTask const& task, RiskDesign& d) {
 /// What a model says of a layer.
 ModelForecast forecast(RiskSearch const& search, DesignModel const& model, DesignLayer const& layer) {
     DesignTask const& task = search.task();
-    SpeedDistribution const speeds = search.speeds(layer, model);
+    SpeedDistribution const speeds = search.speeds(layer, model), alone = speeds.of_speed_alone();
     double const flow = task.bulk_density * task.width * layer.depth, median = speeds.exceeded_with(0.5);
+    double const slowest = speeds.exceeded_with(0.975);
     ModelForecast f{model.name,
                     median,
-                    speeds.exceeded_with(task.confidence),
-                    flow * speeds.exceeded_with(0.975),
+                    alone.exceeded_with(task.confidence),
+                    flow * speeds.exceeded_with(task.confidence),
+                    slowest > least_speed ? flow * slowest : -HUGE_VAL,
                     flow * speeds.exceeded_with(0.025),
                     flow * median,
                     speeds.probability_above(task.mass_flow / flow * (1 - 1e-9)),
                     {},
                     model.at(layer, task.friction.median),
                     model.untested(layer.drive, task.friction.median, task.in_grains(layer.depth))};
-    f.flow_sd = flow * speeds.sd();
+    f.flow_sd = speeds.may_run_away() ? HUGE_VAL : flow * speeds.sd();
     if (f.efficiency) f.budget = budget_of(task, layer, model.name, *f.efficiency, speeds);
     for (double const share : quantile_shares())
         f.flow_quantiles.push_back(flow * speeds.exceeded_with(1 - share));
@@ -192,26 +196,35 @@ RiskDesign described(RiskSearch const& search, DesignLayer const& layer) {
     d.depth = layer.depth;
     d.throw_number = layer.drive.throw_number(task.space.gravity);
     d.machine_number = layer.drive.machine_number(task.space.gravity);
-    d.sure_speed = HUGE_VAL;
+    d.sure_speed = d.sure_flow = HUGE_VAL;
     d.probability = 1;
     for (DesignModel const& model : task.models) {
         ModelForecast const& f = d.forecasts.emplace_back(forecast(search, model, layer));
         d.sure_speed = std::min(d.sure_speed, f.sure_speed);
+        d.sure_flow = std::min(d.sure_flow, f.sure_flow);
         d.probability = std::min(d.probability, f.probability);
     }
-    d.sure_flow = task.bulk_density * task.width * layer.depth * d.sure_speed;
     d.untested = untested(task, layer);
     d.feasible = d.sure_flow >= task.mass_flow * (1 - 1e-9) && !d.untested;
     for (DesignModel const& model : task.beside)
         if (model.is_point_mass || model.excess(layer.drive) <= 0)
             d.beside.push_back(forecast(search, model, layer));
-    if (!d.feasible && !d.untested && d.sure_speed > 0)
-        d.width_needed = task.mass_flow / (task.bulk_density * layer.depth * d.sure_speed);
+    if (!d.feasible && !d.untested && d.sure_flow > 0)
+        d.width_needed = task.width * task.mass_flow / d.sure_flow;
     d.landing_speed = search.worst_landing(layer.drive).speed;
     describe_motion(task, d);
     d.active_limits = limits_at(search, d);
     d.warnings = warnings_at(task, d);
     return d;
+}
+
+/// Where no machine conveys anything at the confidence: the one that carries most at an even chance.
+RiskDesign most_likely(RiskSearch const& search, RiskSearch::Layers layers, DesignLayer const& otherwise) {
+    DesignTask even = search.task();
+    even.confidence = 0.5;
+    RiskSearch likely(even, layers);
+    auto const found = likely.strongest();
+    return described(search, found ? rounded(likely, found->layer, false) : otherwise);
 }
 
 /// The best machine among some layers; nothing when there is none among them.
@@ -224,7 +237,9 @@ std::optional<RiskDesign> best_among(DesignTask const& task, RiskSearch::Layers 
     auto const strongest = search.strongest();
     if (!strongest) return {};
     DesignLayer const& most = strongest->layer;
-    if (search.sure_flow(most) < task.mass_flow) return described(search, rounded(search, most, false));
+    double const flow = search.sure_flow(most);
+    if (flow <= 0) return most_likely(search, layers, most);
+    if (flow < task.mass_flow) return described(search, rounded(search, most, false));
     auto const better = search.best_that_carries(*strongest);
     return described(search, rounded(search, better ? better->layer : most, true));
 }
@@ -373,6 +388,9 @@ RiskDesign judge_machine(DesignTask const& task, theory::Drive const& drive, dou
 
 std::optional<std::string> untested(DesignTask const& task, DesignLayer const& layer) {
     constexpr double share = 0.95;
+    if (auto const narrow =
+            task.grain_diameter ? atlas::why_too_narrow(task.width / *task.grain_diameter) : std::nullopt)
+        return "no layer was simulated between " + *narrow;
     auto const [low, high] = task.friction.central(share);
     auto const depth = task.in_grains(layer.depth);
     for (DesignModel const& model : task.models) {

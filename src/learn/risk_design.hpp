@@ -89,19 +89,22 @@ struct BudgetShare {
 
 /// What one model says of a design.
 struct ModelForecast {
-    std::string model;           ///< its name
-    double median_speed;         ///< m/s
-    double sure_speed;           ///< m/s, reached with the stated confidence
-    double low_flow, high_flow;  ///< kg/s, central 95 % interval of the mass flow at the design's depth
-    double median_flow;          ///< kg/s
-    double probability;          ///< that the mass flow is reached
+    std::string model;    ///< its name
+    double median_speed;  ///< m/s
+    double sure_speed;    ///< m/s, reached with the stated confidence
+    double sure_flow;     ///< kg/s, carried with the stated confidence at the design's depth
+    /// kg/s, central 95 % interval of the mass flow at the design's depth; the first is not finite where the
+    /// material may run away.
+    double low_flow, high_flow;
+    double median_flow;                  ///< kg/s
+    double probability;                  ///< that the mass flow is reached
     std::vector<double> flow_quantiles;  ///< kg/s, at the shares of `quantile_shares`
     /// What the model says of the velocity efficiency at the median of the friction, with its own
     /// uncertainty; nothing when the material has no steady speed.
     std::optional<ModelEfficiency> efficiency;
     /// Why its probability and intervals may not be relied on, without a full stop: see RiskDesign.
     std::optional<std::string> untested = {};
-    double flow_sd = 0;                    ///< kg/s, standard deviation of the mass flow
+    double flow_sd = 0;  ///< kg/s, standard deviation of the mass flow; not finite where it may run away
     std::vector<BudgetShare> budget = {};  ///< the largest share first; empty where nothing is uncertain
 };
 

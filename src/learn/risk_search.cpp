@@ -1,5 +1,6 @@
 #include "learn/risk_search.hpp"
 
+#include "learn/machine_keys.hpp"
 #include "learn/uncertain.hpp"
 #include "learn/way_out.hpp"
 #include "theory/quantities.hpp"
@@ -25,6 +26,7 @@ constexpr int corrections = 3;            // of what the search expects of the s
 constexpr int parts_of_slow_models = 40;  // whose own error smooths the distribution
 constexpr std::size_t polished_layers = 2;
 constexpr double depth_step = 1e-4;  // m, to which the depth is rounded up
+constexpr double no_speed = -1e3;    // m/s, of a material that runs away, which is of no use
 
 double normal_share_above(double z) {
     return 0.5 * std::erfc(z / std::sqrt(2.0));
@@ -76,8 +78,7 @@ SpeedDistribution speeds_by(DesignTask const& task, DesignModel const& model, De
     d.settings = spread_of(task, model, layer);
     for (FrictionPart const& part : parts) {
         auto const value = model.at(layer, part.friction, precision);
-        // A material that runs away has no speed that could be used.
-        double const mean = value ? value->efficiency * trough : -1e3, known = value ? value->sd() : 0;
+        double const mean = value ? value->efficiency * trough : no_speed, known = value ? value->sd() : 0;
         auto const add = [&](double share, double missed) {
             d.shares.push_back(share);
             d.means.push_back(mean);
@@ -150,6 +151,19 @@ double SpeedDistribution::sd() const {
     double within = 0;
     for (std::size_t i = 0; i < sds.size(); ++i) within += shares[i] * sds[i] * sds[i];
     return std::hypot(sd_of_means(), std::sqrt(within));
+}
+
+bool SpeedDistribution::may_run_away() const {
+    return std::ranges::find(means, no_speed) != means.end();
+}
+
+SpeedDistribution SpeedDistribution::of_speed_alone() const {
+    SpeedDistribution alone = *this;
+    for (std::size_t i = 0; i < sds.size(); ++i) {
+        double const by_density = means[i] == no_speed ? 0 : settings.bulk_density * means[i];
+        alone.sds[i] = std::sqrt(std::max(0.0, sds[i] * sds[i] - by_density * by_density));
+    }
+    return alone;
 }
 
 RiskSearch::RiskSearch(DesignTask const& task, Layers layers)

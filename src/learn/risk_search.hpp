@@ -21,6 +21,7 @@ struct SettingSpread {
 };
 
 /// The conveying speeds of a drive: a mixture of normal distributions, at least one per part of the friction.
+/// They are those that give the mass flow with the mean bulk density, whose error counts as one of the speed.
 struct SpeedDistribution {
     std::vector<double> shares, means, sds;  ///< -, m/s, m/s
     SettingSpread settings = {};             ///< at the median of the friction; a part of `sds`
@@ -31,6 +32,9 @@ struct SpeedDistribution {
     double exceeded_with(double probability) const;
     double sd() const;           ///< m/s, standard deviation
     double sd_of_means() const;  ///< m/s, of it what the parts differ in their means
+    bool may_run_away() const;   ///< whether some part has no steady speed; `means` has -1000 m/s there
+    /// The same without the bulk density, which changes the mass flow, and not the speed.
+    SpeedDistribution of_speed_alone() const;
 };
 
 /// The layers that a design looks at, and what is known of each.

@@ -249,6 +249,45 @@ TEST(RiskDesign, SaysWhenItCannotBeReached) {
                 testing::StartsWith("No machine within the limits carries 1000 t/h"));
 }
 
+// The bulk density changes what a trough carries, and not its speed.
+TEST(RiskDesign, TheBulkDensityDoesNotChangeTheSpeed) {
+    DesignTask task = pellets();
+    theory::Drive const drive{15, 0.005, 0.5, 0};
+    RiskDesign const exact = judge_machine(task, drive, 0.03);
+    task.errors.bulk_density = 60;
+    RiskDesign const d = judge_machine(task, drive, 0.03);
+    EXPECT_NEAR(d.sure_speed, exact.sure_speed, 1e-9);
+    EXPECT_NEAR(exact.sure_flow, 600 * 0.3 * 0.03 * exact.sure_speed, 1e-9);
+    EXPECT_LT(d.sure_flow, 0.99 * exact.sure_flow);
+}
+
+// A machine number of 0.5 with an error of 0.1 of the trough's speed conveys nothing with 95 %. The machine
+// is then the one that carries most at an even chance, and no weaker one: here it carries as much as any of a
+// grid of drives does by the point mass, but for the steps of a workshop.
+TEST(RiskDesign, WithoutASureSpeedItIsTheLikeliest) {
+    DesignTask task = pellets();
+    task.space.max_machine_number = 0.5;
+    RiskDesign const d = design_with_risk(task);
+    EXPECT_FALSE(d.feasible);
+    EXPECT_LE(d.sure_flow, 0);
+    double best = 0;
+    for (double frequency = task.space.frequency.low; frequency <= task.space.frequency.high;
+         frequency += 1) {
+        for (double angle = task.space.vibration_angle.low; angle < task.space.vibration_angle.high;
+             angle += 0.05) {
+            double const omega = 2 * pi * frequency;
+            theory::Drive const drive{
+                frequency, std::min(task.space.amplitude.high, 0.5 * 9.81 / (omega * omega)), angle, 0};
+            if (drive.amplitude < task.space.amplitude.low) continue;
+            best = std::max(best,
+                            theory::solve(point_of(drive, 0.3)).velocity_efficiency * drive.trough_speed());
+        }
+    }
+    EXPECT_GT(d.forecasts.front().median_speed, 0.97 * best);
+    EXPECT_EQ(d.depth, task.depth.high);
+    EXPECT_THAT(design_text(task, d), testing::Not(testing::HasSubstr("in operation")));
+}
+
 TEST(RiskDesign, WarnsWhereTheTheoryAloneIsWrong) {
     DesignTask task = pellets();
     task.space.max_throw_number = 1.7;

@@ -270,7 +270,8 @@ learn::DesignTask DesignOptions::task() const {
     required("--bulk-density", quantities.text("--bulk-density"), "\"600 kg/m3\"");
     auto const density = *quantities.uncertain("--bulk-density");
     task.bulk_density = density.mean;
-    task.errors = read_errors(*this, density.sd);
+    // A trough carries the same volume whatever the material weighs.
+    task.errors = read_errors(*this, is_volume_flow(flow) ? 0 : density.sd);
     task.mass_flow = read_mass_flow("--mass-flow", flow, task.bulk_density);
     task.surge = quantities.value("--surge").value_or(1);
     task.mass_flow *= task.surge;

@@ -123,6 +123,9 @@ double read_positive_quantity(std::string const& option, std::string const& text
 /// @throws core::InputError as read_number_within
 double read_mass_flow(std::string const& option, std::string const& text, std::optional<double> bulk_density);
 
+/// Whether a flow is one of volume, such as "20 m3/h".
+bool is_volume_flow(std::string const& text);
+
 /// Reads the speed of a motor's shaft in turns per minute, "960" or "960 rpm", as cycles per second (Hz).
 /// @throws core::InputError as read_number_within
 double read_turns(std::string const& option, std::string const& text);

@@ -95,16 +95,19 @@ double read_positive_quantity(std::string const& option, std::string const& text
         fmt::format("{} {}: must be above zero; write for example {} \"{}\"", option, text, option, example));
 }
 
-double read_mass_flow(std::string const& option, std::string const& text,
-                      std::optional<double> bulk_density) {
-    std::string const example = "12 t/h";
-    bool is_volume = true;
+bool is_volume_flow(std::string const& text) {
     try {
         core::parse_quantity(text, "m3/s");
     } catch (core::QuantityError const&) {
-        is_volume = false;
+        return false;
     }
-    if (!is_volume) return read_positive_quantity(option, text, "kg/s", example);
+    return true;
+}
+
+double read_mass_flow(std::string const& option, std::string const& text,
+                      std::optional<double> bulk_density) {
+    std::string const example = "12 t/h";
+    if (!is_volume_flow(text)) return read_positive_quantity(option, text, "kg/s", example);
     if (bulk_density) return *bulk_density * read_positive_quantity(option, text, "m3/s", "20 m3/h");
     throw core::InputError(fmt::format(
         "{} {}: is a flow of volume, for which the bulk density must be known; write --bulk-density, or a "
