@@ -25,10 +25,6 @@ bool is_outdated(std::span<store::Observable const> observables, store::CaseReco
     });
 }
 
-std::optional<Value> value_of(std::optional<double> const& number) {
-    return number ? std::optional<Value>(*number) : std::nullopt;
-}
-
 /// The values of the columns of add_observed().
 std::vector<std::optional<Value>> observed_values(std::span<store::Observable const> observables,
                                                   store::CaseRecord const& record) {

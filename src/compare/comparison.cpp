@@ -85,8 +85,7 @@ std::optional<Value> known_value(store::CaseNumber const& value) {
     if (auto const* const whole = std::get_if<int>(&value)) return *whole;
     if (auto const* const word = std::get_if<std::string>(&value))
         return word->empty() ? std::nullopt : std::optional<Value>(*word);
-    auto const& number = std::get<std::optional<double>>(value);
-    return number && std::isfinite(*number) ? std::optional<Value>(*number) : std::nullopt;
+    return value_of(std::get<std::optional<double>>(value));
 }
 
 void add_measurement(Row& row, store::CaseRecord const& record) {
@@ -160,6 +159,10 @@ std::string curve(Line const& line, LineModels const& models, double from, doubl
 }
 
 }  // namespace
+
+std::optional<Value> value_of(std::optional<double> const& number) {
+    return number && std::isfinite(*number) ? std::optional<Value>(*number) : std::nullopt;
+}
 
 std::string theory_curves_csv(std::vector<Row> const& rows) {
     std::string text =

@@ -17,6 +17,9 @@ namespace vibrotrough::compare {
 /// A known value of a column.
 using Value = std::variant<double, int, std::string>;
 
+/// A number as the value of a column; none where it is not known or not finite.
+std::optional<Value> value_of(std::optional<double> const& number);
+
 /// Those values of measured_quantities() that are known, by their places there and in their units. Most are
 /// numbers, which are kept in few bytes: a campaign may have 100,000 rows.
 class MeasuredValues {

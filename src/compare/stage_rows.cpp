@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -87,10 +86,6 @@ std::vector<Column> columns_of_theory() {
     return {point, rolling};
 }
 
-std::optional<Value> known(std::optional<double> const& number) {
-    return number && std::isfinite(*number) ? std::optional<Value>(*number) : std::nullopt;
-}
-
 }  // namespace
 
 std::vector<Row> stage_rows(std::string const& id, prepare::PreparedCase const& prepared,
@@ -104,14 +99,14 @@ std::vector<Row> stage_rows(std::string const& id, prepare::PreparedCase const& 
         prepare::PreparedCase const& alone = stage.standstill ? prepared : of_stage(prepared, stage);
         Row row = compare(id, alone, {}, outcome);
         auto const speed = [&](std::optional<double> const& efficiency) {
-            return efficiency ? known(*efficiency * alone.velocity_scale) : std::nullopt;
+            return efficiency ? value_of(*efficiency * alone.velocity_scale) : std::nullopt;
         };
         row.own.resize(first_of_table + stages.columns.size());
         row.own[speed_theory] = speed(row.efficiency_theory);
         row.own[speed_rolling_layer] = speed(row.efficiency_rolling_layer);
         row.own[stage_number] = static_cast<int>(i) + 1;
         for (std::size_t column = 0; column < table.size(); ++column)
-            row.own[first_of_table + column] = known(std::get<std::vector<double>>(table[column])[i]);
+            row.own[first_of_table + column] = value_of(std::get<std::vector<double>>(table[column])[i]);
         rows.push_back(std::move(row));
     }
     return rows;

@@ -2,7 +2,6 @@
 
 #include "measure/stage_means.hpp"
 
-#include <cmath>
 #include <optional>
 
 namespace vibrotrough::store {
@@ -44,10 +43,6 @@ std::optional<std::size_t> last_stage(std::vector<Stage> const& stages, bool sta
     for (std::size_t i = stages.size(); i-- > 0;)
         if (stages[i].standstill == standstill) return i;
     return {};
-}
-
-std::optional<double> known(double value) {
-    return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 /// A column with one number for each stage.
@@ -205,9 +200,9 @@ void add_stages(CaseRecord& record) {
     auto const moving = last_stage(all, false), standing = last_stage(all, true);
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
         PackingRecord& packing = record.packings[i];
-        if (moving) packing.stage_speed = known(means[*moving].speed.values[i]);
-        if (moving) packing.time_to_speed = known(means[*moving].time_to_speed.values[i]);
-        if (standing) packing.stopping_distance = known(means[*standing].distance.values[i]);
+        if (moving) from_stored(means[*moving].speed.values[i], packing.stage_speed);
+        if (moving) from_stored(means[*moving].time_to_speed.values[i], packing.time_to_speed);
+        if (standing) from_stored(means[*standing].distance.values[i], packing.stopping_distance);
     }
 }
 

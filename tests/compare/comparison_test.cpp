@@ -183,6 +183,14 @@ TEST(Compare, MakesNoNumberOfAnIntervalWithoutEnd) {
     EXPECT_FALSE(row.number("efficiency_half_width_statistics"));
 }
 
+// An infinite half-width is unbounded, a curve without a value is NaN: neither is a number of a table.
+TEST(Compare, TakesNumbersThatAreNotFiniteAsUnknown) {
+    EXPECT_EQ(value_of(0.5), Value(0.5));
+    EXPECT_FALSE(value_of(std::nullopt));
+    EXPECT_FALSE(value_of(INFINITY));
+    EXPECT_FALSE(value_of(NAN));
+}
+
 // A study takes the place of what is expected, and the whole is the root of the sum of squares.
 TEST(Compare, TakesTheStudiedErrorInPlaceOfTheExpectedOne) {
     auto const prepared = prepare::prepare_case(record.scenario);
