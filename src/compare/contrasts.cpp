@@ -109,7 +109,8 @@ std::vector<Column> columns_of_difference() {
                   "Half-width of its interval at measure.confidence, for statistics and numerics together"),
         column_of(
             eta_statistics, "efficiency_difference_half_width_statistics",
-            "The part of the packings' scatter: Welch's interval, Student's t over the packings of both"),
+            "The part of the packings' scatter, Welch's interval with Student's t over the packings of both, "
+            "and of what is left of their start-ups (efficiency_drift)"),
         column_of(eta_numerics, "efficiency_difference_numerics",
                   "The part of the numerical errors that do not cancel"),
         is_known};

@@ -256,6 +256,10 @@ std::vector<Quantity> start_and_scatter_quantities() {
         {"efficiency_above_half_width_statistics", "1",
          "Half-width of the confidence interval of efficiency_above",
          Real([](Case c) { return half_width_of(c.estimate.above); })},
+        {"efficiency_drift", "1",
+         "The part of efficiency_half_width_statistics for what is probably left of a start-up that all "
+         "packings share, which adds to that of their scatter as the root of the sum of squares",
+         Real([](Case c) { return c.estimate.drift; })},
         {"packing_deviation", "1", "Standard deviation of the mean efficiency of one packing",
          Real([](Case c) { return c.estimate.deviation; })},
         {"packing_deviation_within", "1",

@@ -101,6 +101,8 @@ measure::CaseEstimate read_case_values(Tables const& tables) {
     estimate.deviation = number("packing_deviation");
     estimate.deviation_within = number("packing_deviation_within").value_or(0);
     estimate.correlation_time = number("correlation_time").value_or(1);
+    // Older results do not have it.
+    if (table.has("efficiency_drift")) estimate.drift = number("efficiency_drift").value_or(0);
     int const below = (estimate.packings + 1) / 2;  // odd numbers
     if (auto const mean = number("efficiency_below"))
         estimate.below = measure::Branch{*mean, number("efficiency_below_half_width_statistics"), below};

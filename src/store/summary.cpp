@@ -63,7 +63,7 @@ void for_estimate(Function const& function) {
     using E = measure::CaseEstimate;
     auto const all = [&](auto... members) { (function(members), ...); };
     all(&E::mean, &E::half_width, &E::packings, &E::deviation, &E::deviation_within, &E::correlation_time,
-        &E::below, &E::above);
+        &E::drift, &E::below, &E::above);
 }
 
 /// Applies a function to the field of each quantity of packings that a summary holds.

@@ -39,6 +39,9 @@ TEST_F(ResultSummary, ReadsEachResultOnce) {
     auto const whole = store::read_result(planned.result_file());
     EXPECT_EQ(record->outcome, whole.outcome);
     EXPECT_EQ(record->estimate.mean, whole.estimate.mean);
+    // The interval of a difference needs it (measure/difference.hpp): stored as it is, so equality is exact.
+    EXPECT_EQ(record->estimate.drift, store::sample_record(planned.id).estimate.drift);
+    EXPECT_GT(record->estimate.drift, 0);
     ASSERT_EQ(record->packings.size(), whole.packings.size());
     EXPECT_EQ(record->packings[0].estimate.half_width, whole.packings[0].estimate.half_width);
     EXPECT_EQ(record->packings[0].wall_time, whole.packings[0].wall_time);

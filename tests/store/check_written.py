@@ -153,7 +153,7 @@ def check_result_values(file):
     assert math.isclose(case["power_per_area"], 0.75 / (0.036 * 0.018), rel_tol=1e-13) and case["damping"] == 0.5
     assert math.isnan(case["trough_width"])
     # Stored as given: exact.
-    assert case["efficiency"] == 0.82 and case["efficiency_half_width_statistics"] == 0.127 and case["confidence"] == 0.95
+    assert case["efficiency"] == 0.82 and case["efficiency_half_width_statistics"] == 0.127 and case["efficiency_drift"] == 0.03125 and case["confidence"] == 0.95
     assert case["cycles_measured"] == 2 and case["cycles_discarded"] == 2 and case["wall_time"] == 23.75
     assert case["grain_density"] == 1400.0 and case["layer_grains"] == 500 and math.isnan(case["layer_height"])
     # The layer: means over the packings that have the number, the largest overlap, NaN where none has it.

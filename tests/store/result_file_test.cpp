@@ -102,6 +102,7 @@ void expect_equal(CaseRecord const& read, CaseRecord const& written) {
     EXPECT_EQ(read.estimate.packings, written.estimate.packings);
     EXPECT_EQ(read.estimate.deviation, written.estimate.deviation);
     EXPECT_EQ(read.estimate.deviation_within, written.estimate.deviation_within);
+    EXPECT_EQ(read.estimate.drift, written.estimate.drift);
     ASSERT_EQ(read.estimate.below.has_value(), written.estimate.below.has_value());
     if (read.estimate.below) {
         EXPECT_EQ(read.estimate.below->mean, written.estimate.below->mean);

@@ -121,6 +121,7 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
                          .correlation_time = 1.75,
                          .deviation = 0.0141,
                          .deviation_within = 0.01,
+                         .drift = 0.03125,
                          .below = measure::Branch{0.83, {}, 1},
                          .above = measure::Branch{0.81, {}, 1}},
             .packings = {first, second},

@@ -36,7 +36,7 @@ std::optional<std::string> stamp_of(std::filesystem::path const& file) {
 /// The first line of the file, in JSON: what the summary was made from. The second one is the SHA-256 of the
 /// result, and the packed summary follows.
 std::string header(std::string const& stamp) {
-    static std::string const layout = Json("vibrotrough summary 6 " + store::summary_layout()).dump();
+    static std::string const layout = Json("vibrotrough summary 7 " + store::summary_layout()).dump();
     return "{\"layout\":" + layout + ",\"result\":" + stamp + "}\n";
 }
 
