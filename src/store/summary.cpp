@@ -73,15 +73,25 @@ void for_summary(Function const& function) {
         if (quantity.name != "deck") for_packings(quantity, function);  // long, and in no table of cases
 }
 
+/// How many grains were fed in all, by which evaluate::unsteady_flow knows how far chance moves the flows of
+/// an open trough; empty of other layers.
+std::vector<double> fed_in_all(PackingRecord const& packing) {
+    std::vector<double> const& fed = packing.series.open.fed;
+    if (fed.empty()) return {};
+    return {fed.back()};
+}
+
 Json packing_json(PackingRecord const& packing) {
     Json values = Json::array();
     for_summary([&](auto const& field) { values.push_back(to_json(field(packing))); });
+    values.push_back(fed_in_all(packing));
     return values;
 }
 
 PackingRecord summary_of_packing(PackingRecord const& packing) {
     PackingRecord summary{};
     for_summary([&](auto const& field) { field(summary) = field(packing); });
+    summary.series.open.fed = fed_in_all(packing);
     return summary;
 }
 
@@ -89,6 +99,7 @@ PackingRecord packing_from(Json const& values) {
     PackingRecord packing{};
     std::size_t at = 0;
     for_summary([&](auto const& field) { from_json(values.at(at++), field(packing)); });
+    packing.series.open.fed = values.at(at).get<std::vector<double>>();
     return packing;
 }
 
@@ -159,7 +170,7 @@ std::string summary_layout() {
     for (CaseFact const& fact : case_facts()) layout += " " + std::string(fact.entry.name);
     for (Quantity const& quantity : quantities())
         if (quantity.is_of_packings()) layout += " " + std::string(quantity.name);
-    return layout;
+    return layout + " fed";
 }
 
 }  // namespace vibrotrough::store

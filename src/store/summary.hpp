@@ -10,7 +10,8 @@
 namespace vibrotrough::store {
 
 /// The part of a result that the tables need: the record without its cycles, curves and decks. Every column
-/// of campaign.h5 is the same from the record and from its summary.
+/// of campaign.h5 is the same from the record and from its summary, and so is whether an open trough is
+/// steady: of its series `fed` the last number is kept.
 CaseRecord summary_of(CaseRecord const& record);
 
 /// The summary as CBOR (RFC 8949) after its SHA-256, for a cache on this machine: the facts, the estimate and
