@@ -1,6 +1,5 @@
 #include "measure/landing.hpp"
 
-#include "measure/constants.hpp"
 #include "theory/pushed_mass.hpp"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ std::optional<double> landing_friction(LayerMotion const& motion) {
     if (!motion.landing_phase || c.phase.empty()) return {};
     std::size_t const count = c.phase.size();
     auto const falling = [&c](std::size_t i) { return c.trough_velocity_z[i] - c.velocity_z[i]; };
-    auto const begin = static_cast<std::size_t>(*motion.landing_phase / two_pi * PhaseSeries::per_cycle);
+    std::size_t const begin = motion.landing_line;
     double const approach = falling((begin + count - 1) % count);
     double along = 0, normal = 0;
     for (std::size_t i = 0; i < count; ++i) {

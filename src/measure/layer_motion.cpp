@@ -259,9 +259,10 @@ void add_flight(LayerMotion& motion, std::vector<ModePhase> const& phases, doubl
     // It hits within the first interval with force: in its middle, on average.
     double const end = first + length + (lands ? 0.5 : 0);
     motion.flight_number = (end - start) / per_cycle;
-    double const take_off_phase = two_pi * std::fmod(start / per_cycle, 1);
-    motion.take_off_phase = take_off_phase;
-    motion.landing_phase = take_off_phase + two_pi * motion.flight_number;
+    // The period may have several cycles, and the flight may begin half a line before it.
+    motion.take_off_phase = within_turn(two_pi * (start / per_cycle));
+    motion.landing_phase = *motion.take_off_phase + two_pi * motion.flight_number;
+    motion.landing_line = static_cast<std::size_t>(first + length) % motion.curves.phase.size();
 }
 
 }  // namespace
@@ -286,6 +287,11 @@ int period_of(PhaseSeries const& series, int discarded, int used) {
         if (change(static_cast<std::size_t>(cycles)) < by_cycle / 4) return cycles;
     }
     return 1;
+}
+
+double within_turn(double angle) {
+    double const rest = angle - two_pi * std::floor(angle / two_pi);
+    return rest >= 0 && rest < two_pi ? rest : 0;  // else it is a turn but for rounding
 }
 
 // For N even and t_j = j T / N: d_jk = (-1)^(j-k) cot((j-k) pi / N) / 2 in units of 2 pi / T

@@ -2,6 +2,7 @@
 
 #include "measure/phase_series.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,6 +52,7 @@ struct LayerMotion {
     int period_cycles = 0;                 ///< cycles after which the motion repeats, 1 to 8
     std::optional<double> take_off_phase;  ///< rad, of the longest flight, [0, 2 pi)
     std::optional<double> landing_phase;   ///< rad, above take_off_phase, not wrapped
+    std::size_t landing_line = 0;          ///< of `curves`: the first behind the longest flight, if it lands
     double flight_number = 0;              ///< duration of the longest flight, cycles
     /// Largest rising speed of the centre of mass relative to the trough from landing to the next take-off,
     /// over the falling speed just before landing: e = max v_z,rel(after) / -v_z,rel(before), mean over all
@@ -79,6 +81,9 @@ struct LayerMotion {
 /// Cycles after which the height above the trough repeats: the first of 2 ... 8 whose squared differences are
 /// below a quarter of those from cycle to cycle, else 1. A layer that skips cycles has 2 or more.
 int period_of(PhaseSeries const& series, int discarded, int used);
+
+/// An angle without its whole turns, rad, [0, 2 pi).
+double within_turn(double angle);
 
 /// The velocity of what moves periodically, from its 100 places per cycle: the derivative of the
 /// trigonometric polynomial through them, exact for up to 49 harmonics.

@@ -37,6 +37,22 @@ TEST(Landing, FrictionOfAPointMassIsMu) {
         0.01);
 }
 
+// A layer that skips cycles takes off in either cycle of its period, by where that begins: the landing is the
+// same. Tolerance: the trace of the theory is interpolated at other times, whose rounding errors are far
+// smaller.
+TEST(Landing, IsLookedAtInTheCycleInWhichItIs) {
+    PointMassPhases skips(theory::PointMass{5.0, 0.5, 0, 0.35});
+    PhaseSeries const series = skips.series(14);
+    skips.facts.used = 12;
+    LayerMotion const one = layer_motion(series, skips.facts);
+    LayerMotion const other = layer_motion(without_first(series, PhaseSeries::per_cycle), skips.facts);
+    ASSERT_EQ(one.period_cycles, 2);
+    ASSERT_EQ(other.period_cycles, 2);
+    EXPECT_NE(one.landing_line, other.landing_line);
+    ASSERT_TRUE(landing_friction(one) && landing_friction(other));
+    EXPECT_NEAR(*landing_friction(one), *landing_friction(other), 1e-6);
+}
+
 TEST(Landing, WithoutFlightThereIsNone) {
     PointMassPhases slides(theory::PointMass{0.8, 0.5, 0, 0.23});
     EXPECT_FALSE(landing_friction(layer_motion(slides.series(8), slides.facts)));

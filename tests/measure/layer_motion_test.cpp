@@ -108,6 +108,25 @@ TEST(LayerMotion, SeesThatCyclesAreSkipped) {
     EXPECT_GT(motion.flight_number, 1.5);
 }
 
+// The phase of the take-off is in [0, 2 pi) wherever the cycle begins, and moves with it. At Gamma = 2.8 the
+// force reaches zero before the line from which on the layer flies, so that a cycle that begins with that
+// line has the take-off before its first line. Tolerance: rounding of the trace's interpolation, far smaller.
+TEST(LayerMotion, TakesOffWithinATurn) {
+    PointMassPhases mass(theory::PointMass{2.8, 0.5, 0, 0.23});
+    PhaseSeries const series = mass.series(9);
+    mass.facts.used = 8;
+    double const take_off = layer_motion(series, mass.facts).take_off_phase.value();
+    for (int lines = 0; lines < PhaseSeries::per_cycle; ++lines) {
+        LayerMotion const motion = layer_motion(without_first(series, lines), mass.facts);
+        double const found = motion.take_off_phase.value();
+        EXPECT_GE(found, 0) << lines;
+        EXPECT_LT(found, 2 * pi) << lines;
+        EXPECT_NEAR(std::remainder(found + lines * interval - take_off, 2 * pi), 0, 1e-6) << lines;
+        EXPECT_NEAR(motion.landing_phase.value() - found, 2 * pi * motion.flight_number, 1e-12) << lines;
+    }
+    EXPECT_EQ(within_turn(-1e-30), 0) << "2 pi, but for rounding";
+}
+
 // |F_x| / F_z = mu in every slide of a point mass; intervals in which a slide begins or ends are left out.
 TEST(LayerMotion, SeesTheFrictionOfASlide) {
     for (double const mu : {0.15, 0.3, 0.45}) {

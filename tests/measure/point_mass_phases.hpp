@@ -104,4 +104,15 @@ class PointMassPhases {
     std::vector<theory::TraceSample> fine_;
 };
 
+/// The same without the first lines: where a cycle begins is a choice.
+inline PhaseSeries without_first(PhaseSeries series, int lines) {
+    using S = PhaseSeries;
+    for (auto const column :
+         {&S::x, &S::z, &S::vx, &S::vz, &S::trough_x, &S::trough_z, &S::normal_force, &S::tangential_force,
+          &S::floor_force, &S::touching, &S::touching_vx, &S::touching_spin, &S::clearance,
+          &S::energy_translation, &S::energy_rotation, &S::overlap})
+        (series.*column).erase((series.*column).begin(), (series.*column).begin() + lines);
+    return series;
+}
+
 }  // namespace vibrotrough::measure
