@@ -59,6 +59,34 @@ std::optional<double> gravity_power(Case record) {
            *record.estimate.mean * velocity_scale(trough);
 }
 
+/// The direction of the sum of the packings' unit vectors: a phase just before a cycle's end and one just
+/// after its beginning are close.
+std::optional<double> mean_take_off(Case record) {
+    double along = 0, across = 0;
+    for (Packing packing : record.packings) {
+        if (!packing.motion.take_off_phase) continue;
+        along += std::cos(*packing.motion.take_off_phase);
+        across += std::sin(*packing.motion.take_off_phase);
+    }
+    if (along == 0 && across == 0) return {};
+    return measure::within_turn(std::atan2(across, along));
+}
+
+/// Above the mean take-off, by the mean of what lies between the two in each packing.
+std::optional<double> mean_landing(Case record) {
+    auto const take_off = mean_take_off(record);
+    if (!take_off) return {};
+    double sum = 0;
+    int count = 0;
+    for (Packing packing : record.packings) {
+        if (!packing.motion.take_off_phase || !packing.motion.landing_phase) continue;
+        sum += *packing.motion.landing_phase - *packing.motion.take_off_phase;
+        ++count;
+    }
+    if (count == 0) return {};
+    return *take_off + sum / count;
+}
+
 std::optional<double> added_mass_fraction(Case record) {
     auto const added = mean_over_packings(record, motion(&Motion::added_mass));
     if (!added) return {};
@@ -125,9 +153,17 @@ std::vector<Quantity> motion_quantities() {
          motion(&Motion::period_cycles), largest},
         {"take_off_phase", "rad",
          "Phase at which the layer takes off for its longest flight; NaN without flight",
-         motion(&Motion::take_off_phase), mean},
+         motion(&Motion::take_off_phase)},
+        {"take_off_phase", "rad",
+         "Phase at which the layer takes off for its longest flight, [0, 2 pi); NaN without flight; mean "
+         "direction over the packings, atan2 of the sums of sine and cosine",
+         Real(mean_take_off)},
         {"landing_phase", "rad", "Phase at which it lands, above take_off_phase; NaN without flight",
-         motion(&Motion::landing_phase), mean},
+         motion(&Motion::landing_phase)},
+        {"landing_phase", "rad",
+         "Phase at which it lands: take_off_phase and the mean over the packings of the flight's phases, so "
+         "that it may be above 2 pi; NaN without flight",
+         Real(mean_landing)},
         {"flight_number", "1", "Duration of the longest flight in cycles, 0 without flight",
          motion(&Motion::flight_number), mean},
         {"effective_restitution", "1",

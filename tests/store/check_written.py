@@ -158,7 +158,8 @@ def check_result_values(file):
     assert case["grain_density"] == 1400.0 and case["layer_grains"] == 500 and math.isnan(case["layer_height"])
     # The layer: means over the packings that have the number, the largest overlap, NaN where none has it.
     assert file.attrs["layer_mode"] == b"FP'N"
-    assert case["take_off_phase"] == 0.75 and case["period_cycles"] == 2 and case["velocity_gradient"] == -0.01
+    assert math.isclose(case["take_off_phase"], 0.75, rel_tol=1e-14) and math.isclose(case["landing_phase"], 4.75, rel_tol=1e-14)
+    assert case["period_cycles"] == 2 and case["velocity_gradient"] == -0.01
     assert case["largest_overlap"] == 4.5e-5 and math.isnan(case["friction_ratio"])
     scale = 0.0099 * (omega * 0.006) ** 2
     assert math.isclose(case["dissipation_fraction"], (0.001 + 0.25 / 1024) / scale, rel_tol=1e-14)
