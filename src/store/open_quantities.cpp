@@ -1,6 +1,10 @@
 #include "store/open_quantities.hpp"
 
+#include "measure/mass_flow.hpp"
 #include "measure/open_flow.hpp"
+
+#include <cmath>
+#include <limits>
 
 namespace vibrotrough::store {
 namespace {
@@ -54,6 +58,11 @@ std::vector<CaseValues> residence_times_values(Case record) {
     std::vector<CaseValues> columns{shares};
     over_packings(record, residence(), rows).put_into(columns);
     return columns;
+}
+
+/// kg/m^2, of a settled layer.
+double mass_of_depth(Case record, double depth) {
+    return depth * scenario::settled_solid_fraction * mean_density(record.scenario);
 }
 
 }  // namespace
@@ -121,7 +130,21 @@ std::optional<double> measured_mass_per_area(Case record) {
     if (!is_open(record.scenario)) return mass_per_area(record.scenario);
     auto const depth = mean_over_packings(record, flow(&Flow::window_depth));
     if (!depth) return {};
-    return *depth * scenario::settled_solid_fraction * mean_density(record.scenario);
+    return mass_of_depth(record, *depth);
+}
+
+std::optional<double> open_flow_half_width(Case record) {
+    auto const mass = measured_mass_per_area(record);
+    if (!mass || !record.estimate.mean) return {};
+    double const scale = velocity_scale(record.scenario.trough);
+    std::vector<double> flows;
+    for (PackingRecord const& packing : record.packings)
+        if (auto const depth = packing.open.window_depth)
+            flows.push_back(packing.estimate.mean * scale * mass_of_depth(record, *depth));
+    double const scatter = measure::student_half_width(flows, record.scenario.measure.confidence)
+                               .value_or(std::numeric_limits<double>::infinity());
+    double const shared = std::hypot(record.estimate.drift, record.numerical_error().value_or(0));
+    return std::hypot(scatter, shared * scale * *mass);
 }
 
 std::vector<Quantity> open_quantities() {

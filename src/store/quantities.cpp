@@ -50,9 +50,14 @@ std::optional<double> mass_flow(Case record, std::optional<double> const& effici
     return *known * *mass;
 }
 
+std::optional<double> mass_flow_half_width(Case record) {
+    if (is_open(record.scenario)) return open_flow_half_width(record);
+    return mass_flow(record, whole_half_width(record));
+}
+
 /// On the whole width of the trough, where it is known.
-std::optional<double> whole_flow(Case record, std::optional<double> const& efficiency) {
-    auto const flow = mass_flow(record, efficiency), width = trough_width(record.scenario);
+std::optional<double> whole_flow(Case record, std::optional<double> const& flow) {
+    auto const width = trough_width(record.scenario);
     if (!flow || !width) return {};
     return *flow * *width;
 }
@@ -189,7 +194,7 @@ std::vector<Quantity> flow_quantities() {
         {"mass_flow",
          "kg/s",
          "Mass flow on the whole width of the trough, trough_width; NaN when that is not known",
-         Real([](Case c) { return whole_flow(c, c.estimate.mean); }),
+         Real([](Case c) { return whole_flow(c, mass_flow(c, c.estimate.mean)); }),
          nothing,
          {{.unit = "t/h",
            .factor = tonnes_per_hour,
@@ -201,8 +206,9 @@ std::vector<Quantity> flow_quantities() {
           {}}},
         {"mass_flow_half_width",
          "kg/s",
-         "Half-width of mass_flow, for statistics and numerics together",
-         Real([](Case c) { return whole_flow(c, whole_half_width(c)); }),
+         "Half-width of mass_flow, for statistics and numerics together: that of mass_flow_per_width times "
+         "trough_width",
+         Real([](Case c) { return whole_flow(c, mass_flow_half_width(c)); }),
          nothing,
          {{.unit = "t/h",
            .factor = tonnes_per_hour,
@@ -223,8 +229,10 @@ std::vector<Quantity> flow_quantities() {
            .report = ReportView{"mass flow per width"}}}},
         {"mass_flow_per_width_half_width",
          "kg s-1 m-1",
-         "Half-width of mass_flow_per_width, for statistics and numerics together",
-         Real([](Case c) { return mass_flow(c, whole_half_width(c)); }),
+         "Half-width of mass_flow_per_width, for statistics and numerics together: that of conveying_speed "
+         "times mass_per_area; in an open trough Student's t over the packings' products of speed and depth, "
+         "with efficiency_drift and efficiency_numerics as the root of the sum of squares",
+         Real(mass_flow_half_width),
          nothing,
          {{.unit = "t/h/m", .factor = tonnes_per_hour}}},
         also_without_mean({"packings",

@@ -1,6 +1,7 @@
 #include "sample_record.hpp"
 #include "store/quantity.hpp"
 
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
@@ -39,6 +40,33 @@ TEST(QuantitiesOfTheLayer, PhasesAreAveragedOnTheCircle) {
     first.landing_phase.reset();
     EXPECT_FALSE(number_of_case(record, "take_off_phase"));
     EXPECT_FALSE(number_of_case(record, "landing_phase"));
+}
+
+// Student's t of two values with one degree of freedom is tan(0.95 pi / 2) times half their difference.
+// Speeds of 0.8 and 1.0 of the scale on 12 and 10 mm are flows of 9.6 and 10 mm: they scatter less than speed
+// and depth do. What all packings share is of the speed alone. Tolerance: the quantile's, and roundings.
+TEST(QuantitiesOfAnOpenTrough, TheFlowScattersAsTheProductsOfSpeedAndDepth) {
+    CaseRecord record = sample_record();
+    record.scenario.feed.mass_flow = 0.05;
+    record.scenario.trough.width = 0.3;
+    record.estimate.mean = 0.9;
+    record.estimate.drift = 0.03;
+    record.studied_error = 0.04;
+    record.packings[0].estimate.mean = 0.8;
+    record.packings[0].open.window_depth = 0.012;
+    record.packings[1].estimate.mean = 1.0;
+    record.packings[1].open.window_depth = 0.010;
+    double const scale = velocity_scale(record.scenario.trough);
+    double const bulk_density = scenario::settled_solid_fraction * 1400;
+    double const scatter = std::tan(0.95 * pi / 2) * (0.010 - 0.0096) / 2;
+    double const wanted = std::hypot(scatter, 0.05 * 0.011) * scale * bulk_density;
+    EXPECT_NEAR(number_of_case(record, "mass_flow_per_width").value(), 0.9 * 0.011 * scale * bulk_density,
+                1e-12);
+    EXPECT_NEAR(number_of_case(record, "mass_flow_per_width_half_width").value(), wanted, 1e-9);
+    EXPECT_NEAR(number_of_case(record, "mass_flow_half_width").value(), wanted * 0.3, 1e-9);
+    // The scatter of one packing is not known, as that of its depth is not.
+    record.packings.pop_back();
+    EXPECT_EQ(number_of_case(record, "mass_flow_per_width_half_width"), INFINITY);
 }
 
 }  // namespace
