@@ -51,12 +51,21 @@ std::optional<double> dissipation_fraction(Case record) {
     return sum / count;
 }
 
+/// kg, of the layer; none of a batch on a screen, which becomes less.
+std::optional<double> conveyed_mass(Case record) {
+    if (is_open(record.scenario))
+        return mean_over_packings(record, field(&PackingRecord::open, &measure::OpenFlow::hold_up));
+    if (record.packings.empty() || is_batch(record.scenario)) return {};
+    return record.packings.front().mass;
+}
+
 /// None when no mean is known.
 std::optional<double> gravity_power(Case record) {
-    if (record.packings.empty() || !record.estimate.mean) return {};
+    auto const mass = conveyed_mass(record);
+    if (!mass || !record.estimate.mean) return {};
     scenario::Trough const& trough = record.scenario.trough;
-    return -record.packings.front().mass * trough.gravity * std::sin(trough.inclination) *
-           *record.estimate.mean * velocity_scale(trough);
+    return -*mass * trough.gravity * std::sin(trough.inclination) * *record.estimate.mean *
+           velocity_scale(trough);
 }
 
 /// The direction of the sum of the packings' unit vectors: a phase just before a cycle's end and one just
@@ -174,7 +183,7 @@ std::vector<Quantity> motion_quantities() {
          motion(&Motion::restitution), mean},
         {"gravity_power", "W",
          "Mean power of gravity on the conveyed layer, negative uphill: - m g sin(alpha) times the conveying "
-         "speed",
+         "speed, with m = hold_up in an open trough; NaN for a batch on a screen",
          Real(gravity_power)},
         {"dissipated_power", "W",
          "Dissipation times frequency; of a steady layer it is the power of the trough and of gravity",

@@ -42,6 +42,24 @@ TEST(QuantitiesOfTheLayer, PhasesAreAveragedOnTheCircle) {
     EXPECT_FALSE(number_of_case(record, "landing_phase"));
 }
 
+// P = - m g sin(alpha) v with the mass that is on the trough: of an open one what it was measured to hold,
+// and none where it becomes less. The packing's own mass is there a guess of what the feed will make.
+// Tolerance: roundings of 2 mW.
+TEST(QuantitiesOfTheLayer, GravityPullsAtTheMassThatIsThere) {
+    CaseRecord record = sample_record();
+    scenario::Trough const& trough = record.scenario.trough;
+    double const of_kg = -trough.gravity * std::sin(trough.inclination) * 0.82 * velocity_scale(trough);
+    EXPECT_NEAR(number_of_case(record, "gravity_power").value(), 0.0099 * of_kg, 1e-15);
+    record.scenario.feed.mass_flow = 0.05;
+    EXPECT_FALSE(number_of_case(record, "gravity_power"));
+    record.packings[0].open.hold_up = 0.02;
+    record.packings[1].open.hold_up = 0.03;
+    EXPECT_NEAR(number_of_case(record, "gravity_power").value(), 0.025 * of_kg, 1e-15);
+    record.scenario.feed = {};
+    record.scenario.screen = {0.003, 0.001, 0.1};
+    EXPECT_FALSE(number_of_case(record, "gravity_power"));
+}
+
 // Student's t of two values with one degree of freedom is tan(0.95 pi / 2) times half their difference.
 // Speeds of 0.8 and 1.0 of the scale on 12 and 10 mm are flows of 9.6 and 10 mm: they scatter less than speed
 // and depth do. What all packings share is of the speed alone. Tolerance: the quantile's, and roundings.

@@ -25,6 +25,7 @@ void open(vibrotrough::store::CaseRecord& record) {
             values->assign(packing.series.x.size(), 7);
         packing.open.inflow = packing.open.outflow = 0.05;
         packing.open.window_depth = depth;
+        packing.open.hold_up = packing.mass;
         packing.open.along = {{0.01, 0.02, 0.03, 0.04},
                               {0.012, 0.012, 0.011, 0.01},
                               {0.3, 0.3, 0.31, 0.32},
