@@ -101,17 +101,18 @@ std::vector<std::vector<Snapshot const*>> by_phase(std::vector<Snapshot> const& 
     return phases;
 }
 
-/// The mean v_x of the grains between two fractions of the number of grains, counted from the bottom.
+/// The mean v_x between two fractions of the mass, counted from the bottom. All bins have the same volume, so
+/// that their masses are as their densities.
 double mean_between(Snapshot const& one, double from, double to) {
-    double grains = 0;
-    for (Bin const& bin : one.bins) grains += bin.grains;
+    double mass = 0;
+    for (Bin const& bin : one.bins) mass += bin.density;
     double below = 0, sum = 0;
     for (Bin const& bin : one.bins) {
-        double const low = std::max(below, from * grains), high = std::min(below + bin.grains, to * grains);
+        double const low = std::max(below, from * mass), high = std::min(below + bin.density, to * mass);
         if (high > low) sum += (high - low) * bin.means[0];
-        below += bin.grains;
+        below += bin.density;
     }
-    return sum / ((to - from) * grains);
+    return sum / ((to - from) * mass);
 }
 
 /// The mean over the phases of the mean over the snapshots of each phase.

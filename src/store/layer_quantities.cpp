@@ -220,8 +220,8 @@ std::vector<Quantity> contact_quantities() {
         {"largest_floor_overlap", "m", "Largest overlap of a grain and the floor",
          motion(&Motion::largest_floor_overlap), largest},
         {"velocity_gradient", "1",
-         "Velocity along the trough of the upper third of the layer less that of the lower third, over the "
-         "conveying speed; NaN when it is not conveyed",
+         "Velocity along the trough of the upper third of the layer's mass less that of the lower third, "
+         "over the conveying speed; NaN when it is not conveyed",
          field(&PackingRecord::profiles, &measure::Profiles::velocity_gradient), mean},
         {"wiggle_amplitude", "m",
          "Amplitude of a sinusoid with the variance of the surface's height along the trough, root mean "

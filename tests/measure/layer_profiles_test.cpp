@@ -100,12 +100,21 @@ TEST_F(Snapshots, MakeProfiles) {
     EXPECT_EQ(profiles.solid_fraction, (std::vector<double>{0.5, 0.25, 0.5, 0.25}));
     EXPECT_EQ(profiles.velocity_x, (std::vector<double>{199, 399, 151, 301}));
     EXPECT_EQ(profiles.velocity_z, (std::vector<double>{0.5, 0.25, 0.375, 0.125}));
-    // Thirds of 20 grains lie within the bins of 10: (400 - 200 + 300 - 150) / 2 over 0.5.
+    // Thirds of the mass lie within the bins, of which one has twice that of the other: (400 - 200 + 300 -
+    // 150) / 2 over 0.5.
     EXPECT_NEAR(profiles.velocity_gradient.value(), 350, 1e-10);
     ProfileFacts still = profile_facts(1, 2);
     still.conveying_speed = 0.001;
     EXPECT_FALSE(layer_profiles(read(), still).velocity_gradient);
     EXPECT_TRUE(layer_profiles(read(), profile_facts(2, 9)).phase.empty());
+}
+
+// Thirty fines of 300 kg/m^3 below ten coarse grains of 600 kg/m^3: the upper third of the mass is coarse, at
+// 4 m/s, and the lower third fine, at 1 m/s; a third of the number of grains would have fines in both. 3 over
+// the conveying speed of 0.5 m/s; tolerance: roundings.
+TEST(Profiles, ThirdsAreOfTheMass) {
+    Snapshot const segregated{150, {{1.5, 30, 300, {1, 0}}, {2.5, 10, 600, {4, 0}}}};
+    EXPECT_NEAR(layer_profiles({segregated}, profile_facts(1, 2)).velocity_gradient.value(), 6, 1e-12);
 }
 
 // h = 0.01 + 0.002 sin(2 pi i / 8): the mean height of a column is half of it; s^2 = A^2/2 * 8/7.
