@@ -15,8 +15,9 @@ namespace vibrotrough::evaluate {
 /// @throws as measure::parse_phases
 measure::PhaseSeries packing_phases(prepare::PreparedCase const& prepared, core::TextFile const& file);
 
-/// Measures how the layer of a packing moves within the cycle, over the cycles that its mean is taken from,
-/// and writes it into the record, which holds the estimate already.
+/// Measures how the layer of a packing moves within the cycle, behind the packing's own start-up, and writes
+/// it into the record, which holds the estimate of the packing alone. The start-up that the packings of a
+/// case have in common is known later (evaluate_case); it may be another one.
 /// @throws core::InputError when a file in the packing's folder is damaged
 /// @throws core::MissingError when a file is missing
 void measure_layer(store::PackingRecord& record, prepare::PreparedCase const& prepared,

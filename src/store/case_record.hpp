@@ -31,7 +31,7 @@ struct PackingRecord {
     std::vector<double> efficiency;     ///< velocity efficiency of cycle 1 ... n
     measure::PackingEstimate estimate;  ///< of `efficiency`
     std::string deck;                   ///< in.liggghts
-    measure::LayerMotion motion;        ///< within the cycle, over the cycles kept
+    measure::LayerMotion motion;        ///< within the cycle, behind the packing's own start-up
     measure::Profiles profiles;         ///< of the same cycles
     measure::Surface surface;           ///< of the layer in the same cycles
     measure::OpenFlow open;             ///< of an open trough

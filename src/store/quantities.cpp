@@ -355,7 +355,8 @@ std::vector<Quantity> run_quantities() {
          field(&PackingRecord::start_efficiency)},
         also_without_mean({"cycles_discarded",
                            "1",
-                           "Cycles cut as start-up, the same for all packings (pooled MSER)",
+                           "Cycles cut as start-up, the same for all packings (pooled MSER); the motion "
+                           "within the cycle and the profiles leave out the packing's own start-up (MSER)",
                            estimate(&measure::PackingEstimate::discarded),
                            sum,
                            {{.report = ReportView{"discarded"}}}}),
