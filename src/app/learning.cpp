@@ -47,6 +47,7 @@ bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::str
     for (campaign::PlannedCase const& planned : ready.plan.cases)
         wanted.emplace(planned.id, planned.scenario().measure.half_width);
     learn::write_wanted_half_widths(ready.plan.folder, wanted);
+    ready.inputs.is_learning = true;
     campaign::Summary const summary =
         drive_campaign(options, ready, *campaign::make_policy(wanted), campaign::Until::done, *ready.kind);
     if (summary.interrupted) tell("interrupted; the same command continues it\n");

@@ -33,6 +33,7 @@ TEST_F(BatchTest, ComesBackAsWritten) {
     EXPECT_EQ(read[0].name, batch.name);
     EXPECT_NE(read[0].name, read[1].name);
     EXPECT_FALSE(read[0].job);
+    EXPECT_EQ(core::read_file(batch.folder / "job.sh").find("--learning"), std::string::npos);
     remember_job(batch, 4711);
     EXPECT_EQ(read_batches(folder)[0].job, 4711);
     for (std::size_t i = 0; i < tasks.size(); ++i)
@@ -58,14 +59,15 @@ TEST_F(BatchTest, TheScriptRunsTheProgramAndSaysHowFarItCame) {
     fs::path const program = odd / "vibrotrough";
     std::ofstream(program) << "#!/bin/sh\nprintf '%s\\n' \"$@\" > arguments\nexit 5\n";
     fs::permissions(program, fs::perms::owner_all);
-    Batch const batch = write_batch(folder, tasks, {program, 2, 90.0, 3, true, {}});
+    Batch const batch = write_batch(folder, tasks, {program, 2, 90.0, 3, true, {}, 1, false, true});
     std::string const command = fmt::format(
         "cd '{}' && SLURM_ARRAY_TASK_ID=1 SLURM_ARRAY_JOB_ID=77 sh slurm/0001/job.sh", folder.string());
     int const status = std::system(command.c_str());
     EXPECT_EQ(WEXITSTATUS(status), 5);
-    EXPECT_EQ(core::read_file(folder / "arguments"),
-              "work\n.\n--task-list\nslurm/0001/"
-              "tasks.txt\n--index\n1\n--ranks\n2\n--retries\n3\n--allow-extra\n--time-limit\n90\n");
+    EXPECT_EQ(
+        core::read_file(folder / "arguments"),
+        "work\n.\n--task-list\nslurm/0001/"
+        "tasks.txt\n--index\n1\n--ranks\n2\n--retries\n3\n--allow-extra\n--learning\n--time-limit\n90\n");
     EXPECT_EQ(core::read_file(batch.folder / "task-1.ended"), "5\n");
     EXPECT_TRUE(core::read_file(batch.folder / "task-1.started").ends_with(" 77\n"));
     EXPECT_FALSE(fs::exists(folder / "hacked"));

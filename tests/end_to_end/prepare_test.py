@@ -67,6 +67,26 @@ class Prepare(EndToEndTest):
         self.run_campaign(campaign, output=local, wanted=None)
         self.assertEqual(by_tasks, without_wall_time(self.table(local)))
 
+    def test_what_learn_wants_is_for_the_tasks_of_learn(self):
+        """learn.json asks for less than the campaign file: `work` stops early only where learn started it."""
+        campaign = self.write_campaign(ROUNDS)
+        self.prepare(campaign)
+        case = self.tasks()[0].split()[0]
+        # Wider than the interval of two packings by far, whose Student factor is 25.
+        wanted = {"format": "vibrotrough learn", "schema_version": 1, "half_widths": {case: 50.0}}
+        (self.output / "learn.json").write_text(json.dumps(wanted))
+        self.run_tasks()
+        self.assertEqual(self.results(), [], "two packings are not enough for the campaign file")
+        words = ["work", self.output, "--task-list", self.list, "--index", 0]
+        learning = self.call(*words, "--learning")
+        self.assertEqual(learning.returncode, 0, learning.stderr)
+        self.assertEqual(len(self.results()), 1, "but for learn they are")
+        self.prepare(campaign)
+        self.assertEqual([line.split()[1] for line in self.tasks()], ["3"])
+        self.run_tasks()
+        self.assertIn("1 of 1 cases have ended\nnothing is missing", self.prepare(campaign).stdout)
+        self.assertEqual([row["packings"] for row in self.table()], [3])
+
     def test_a_task_takes_as_many_minutes_as_it_is_told(self):
         # Packings of a second or so each: a task holds as many as fill a minute. The task counts the cycles that a packing has at first,
         # the plan those that it probably needs in the end: hence a factor of three.

@@ -17,6 +17,7 @@ struct WorkArguments {
     int index = 0;
     double time_limit = 0;
     bool allow_extra = false;
+    bool is_learning = false;
     campaign::WorkLimits limits;
 };
 
@@ -25,7 +26,9 @@ int run_work(WorkArguments& options) {
     if (options.time_limit > 0) options.limits.time_limit = options.time_limit;
     // The campaign's folder names the program that is started; whoever looks at the output shall see which.
     tell("engine: {}\n", campaign::read_engine(options.folder).program.string());
-    auto const policy = campaign::make_policy(learn::read_wanted_half_widths(options.folder));
+    // The policy must be that of the driver, or neither ever finds what the other one wants.
+    auto const policy = campaign::make_policy(
+        options.is_learning ? learn::read_wanted_half_widths(options.folder) : campaign::HalfWidths{});
     int worst = all_well;
     for (campaign::PackingId const& packing : campaign::read_task(options.task_list, options.index)) {
         campaign::WorkResult const result = campaign::work(options.folder, packing, options.limits, *policy);
@@ -65,6 +68,10 @@ void add_work(CLI::App& program, int& exit_code) {
         ->add_option("--time-limit", options->time_limit, "Longest wall-clock time of a packing in seconds")
         ->check(CLI::Range(1.0, 3e7));
     add_allow_extra(*command, options->allow_extra);
+    command->add_flag(
+        "--learning", options->is_learning,
+        "Aim at the half-widths that 'vibrotrough learn' or 'calibrate' wants of the cases, instead of "
+        "measure.half_width");
     command->footer(
         R"(The job script that 'vibrotrough run' writes for a cluster calls this command; for other schedulers
 'vibrotrough prepare' writes the list. Any number of these processes may work on one campaign at the same time: each

@@ -89,6 +89,7 @@ std::string work_lines(std::string const& work, JobScript const& job) {
 std::string job_script(Batch const& batch, JobScript const& job) {
     std::string options = fmt::format("--ranks {} --retries {}", job.ranks, job.retries);
     if (job.allow_extra) options += " --allow-extra";
+    if (job.is_learning) options += " --learning";
     if (job.time_limit) options += fmt::format(" --time-limit {:.0f}", *job.time_limit);
     std::string const files = "slurm/" + batch.folder.filename().string();
     std::string const work = fmt::format("{} work . --task-list {}/tasks.txt --index \"$index\" {}",

@@ -39,6 +39,7 @@ struct JobScript {
     std::vector<std::string> setup;    ///< lines of bash that run first
     int engines = 1;                   ///< that run at the same time
     bool is_warned = false;            ///< Slurm sends SIGUSR1 before the end, and the task is queued again
+    bool is_learning = false;          ///< packings are wanted for the half-widths of learn.json
 };
 
 /// Makes a batch's folder with its task list and job script; not yet submitted.

@@ -133,7 +133,8 @@ class BatchExecutor : public Executor {
                                inputs_.foreign_commands.any(),
                                asked_.setup,
                                engines(),
-                               is_warned()};
+                               is_warned(),
+                               inputs_.is_learning};
         Batch batch = write_batch(inputs_.campaign_folder, tasks, script);
         JobArray const array{std::filesystem::absolute(inputs_.campaign_folder),
                              "slurm/" + batch.folder.filename().string(),

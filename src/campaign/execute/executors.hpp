@@ -26,6 +26,7 @@ struct ExecutorInputs {
     double speed = 0;         ///< grain-steps per second of one core, expected; needed for task_duration
     bool holds_lock = false;  ///< whoever runs the packings has locked them already
     std::filesystem::path task_list = {};  ///< the file that the executor "task-list" writes
+    bool is_learning = false;              ///< the driver's policy has the half-widths of learn.json
 };
 
 /// One kind of executor.
