@@ -174,15 +174,36 @@ std::string end_of_run(fs::path const& folder) {
     return "not known: there is no log.liggghts";
 }
 
-HandPacking measure_packing(prepare::PreparedCase prepared, fs::path const& folder) {
+/// Leaves so many rows of a table, with the header and the comments before them.
+void keep_rows(core::TextFile& table, long rows) {
+    std::size_t end = 0;
+    for (long left = rows + 1; left > 0;) {
+        std::size_t const begin = end, line_end = table.content.find('\n', begin);
+        if (line_end == std::string::npos) return;
+        if (table.content[begin] != '#') --left;
+        end = line_end + 1;
+    }
+    table.content.resize(end);
+}
+
+void measure_packing(HandRun& run, fs::path const& folder) {
+    prepare::PreparedCase prepared = run.prepared;
     HandPacking packing{
         .folder = folder, .number = std::max(1, number_of(folder)), .end = end_of_run(folder)};
     if (auto const steps = steps_per_cycle(folder / deck::drive_file)) {
         prepared.time.steps_per_cycle = *steps;
         prepared.time.time_step = 1 / (prepared.scenario.trough.frequency * *steps);
     }
-    PackingFiles const files = read_packing_files(folder);
+    PackingFiles files = read_packing_files(folder);
     packing.cycles = extent_of_run(prepared, folder).cycles;
+    int const planned = prepared.scenario.measure.max_cycles;
+    if (has_given_length(prepared.scenario) && packing.cycles > planned) {
+        run.changes.push_back(fmt::format("packing {} ran {} cycles; the {} of the scenario are measured",
+                                          packing.number, packing.cycles, planned));
+        packing.cycles = planned;
+        keep_rows(files.cycles, planned + 1);  // the first row is the start
+        keep_rows(files.phases, static_cast<long>(planned) * measure::PhaseSeries::per_cycle);
+    }
     if (packing.cycles < 2)
         throw core::InputError(
             fmt::format("{} holds {} whole cycles, and a mean needs two; let the run go on",
@@ -197,7 +218,7 @@ HandPacking measure_packing(prepare::PreparedCase prepared, fs::path const& fold
         packing.fault = fault.outcome;
         packing.message = fault.message;
     }
-    return packing;
+    run.packings.push_back(std::move(packing));
 }
 
 }  // namespace
@@ -207,7 +228,7 @@ HandRun measure_by_hand(fs::path const& folder, fs::path const& scenario_file) {
     fs::path const file = find_scenario(scenario_file, folders.front());
     HandRun run{file, read_case(file), {}, 0, {}, core::Outcome::finished};
     take_drive(run, folders.front());
-    for (fs::path const& one : folders) run.packings.push_back(measure_packing(run.prepared, one));
+    for (fs::path const& one : folders) measure_packing(run, one);
     run.cycles_used = std::ranges::min(run.packings, {}, &HandPacking::cycles).cycles;
     std::vector<measure::PackingValues> values;
     for (HandPacking const& packing : run.packings) {

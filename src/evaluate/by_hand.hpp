@@ -14,9 +14,9 @@ namespace vibrotrough::evaluate {
 
 /// One packing that was run by hand.
 struct HandPacking {
-    std::filesystem::path folder;         ///< of the run
-    int number;                           ///< N of a folder packing-N, else 1
-    int cycles = 0;                       ///< whole cycles that were written
+    std::filesystem::path folder;  ///< of the run
+    int number;                    ///< N of a folder packing-N, else 1
+    int cycles = 0;  ///< whole cycles that were written, but no more than planned of a given length
     std::vector<double> efficiency = {};  ///< velocity efficiency of each cycle
     std::string end;                      ///< how the run ended, in words
     std::string mode = {};                ///< of the layer; empty when it is not known
