@@ -34,9 +34,11 @@ bool is_file(fs::path const& path) {
 int number_of(fs::path const& folder) {
     std::string const name = folder.filename().string();
     constexpr std::string_view begin = "packing-";
+    char const* const end = name.data() + name.size();
     int number = 0;
-    if (name.starts_with(begin))
-        std::from_chars(name.data() + begin.size(), name.data() + name.size(), number);
+    // "packing-1-old" is a copy that somebody put aside.
+    if (!name.starts_with(begin) || std::from_chars(name.data() + begin.size(), end, number).ptr != end)
+        return 0;
     return number >= 1 && number <= 1000 ? number : 0;
 }
 

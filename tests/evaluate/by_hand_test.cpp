@@ -1,6 +1,7 @@
 #include "evaluate/by_hand.hpp"
 
 #include "campaign/campaign_folder.hpp"
+#include "core/error.hpp"
 
 #include <gmock/gmock.h>
 
@@ -42,6 +43,14 @@ TEST_F(ByHand, MeasuresNoMoreCyclesThanStagesHave) {
     EXPECT_NEAR(run.estimate.mean.value(), 0.6, 1e-9);
     EXPECT_THAT(run.changes, ElementsAre("packing 1 ran 14 cycles; the 10 of the scenario are measured"));
     EXPECT_THAT(run.packings.front().message, Not(HasSubstr("phases.csv holds")));
+}
+
+// A copy that was put aside is no packing of the case, but can be measured by its own name.
+TEST_F(ByHand, ACopyOfAPackingIsNotThatPacking) {
+    auto const s = write_case(example_campaign);
+    write_run("packing-1-old", s, 30, [](int) { return 0.5; });
+    EXPECT_THROW(measure_by_hand(folder), core::InputError);
+    EXPECT_EQ(measure_by_hand(folder / "packing-1-old").packings.front().cycles, 30);
 }
 
 }  // namespace
