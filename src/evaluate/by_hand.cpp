@@ -118,6 +118,12 @@ double first_harmonic(std::vector<double> const& values) {
     return 2 * std::abs(sum) / static_cast<double>(std::max<std::size_t>(1, count));
 }
 
+/// Amplitude of the fundamental of a Fourier series, m.
+double fundamental_of(std::vector<scenario::DriveTerm> const& terms) {
+    auto const found = std::ranges::find(terms, 1, &scenario::DriveTerm::order);
+    return found == terms.end() ? 0 : std::abs(found->amplitude);
+}
+
 /// The drive that was run: of a deck that was edited it differs from the scenario's.
 void take_drive(HandRun& run, fs::path const& folder) {
     constexpr double as_asked = 1e-3;  // the same drive, but for 15 digits and whole steps per cycle
@@ -140,16 +146,20 @@ void take_drive(HandRun& run, fs::path const& folder) {
     double const along = first_harmonic(phases.trough_x), normal = first_harmonic(phases.trough_z);
     double const amplitude = std::hypot(along, normal), angle = std::atan2(normal, along);
     if (phases.cycles() == 0 || !(amplitude > 0)) return;
-    if (std::abs(amplitude / trough.amplitude - 1) < as_asked &&
-        std::abs(angle - trough.vibration_angle) < as_asked &&
+    // The amplitude and the angle of a record may differ from those of the keys.
+    double const asked_along = fundamental_of(run.prepared.motion.along),
+                 asked_normal = fundamental_of(run.prepared.motion.normal);
+    double const asked = std::hypot(asked_along, asked_normal),
+                 asked_angle = std::atan2(asked_normal, asked_along);
+    if (std::abs(amplitude / asked - 1) < as_asked && std::abs(angle - asked_angle) < as_asked &&
         std::abs(frequency / trough.frequency - 1) < as_asked)
         return;
     run.changes.push_back(
         fmt::format("the trough moved with an amplitude of {:.6g} mm at {:.5g} deg and {:.6g} Hz, and not "
                     "with {:.6g} mm, "
                     "{:.5g} deg and {:.6g} Hz of the scenario",
-                    1e3 * amplitude, scenario::in_degrees(angle), frequency, 1e3 * trough.amplitude,
-                    scenario::in_degrees(trough.vibration_angle), trough.frequency));
+                    1e3 * amplitude, scenario::in_degrees(angle), frequency, 1e3 * asked,
+                    scenario::in_degrees(asked_angle), trough.frequency));
     trough.amplitude = amplitude;
     trough.vibration_angle = angle;
     trough.frequency = frequency;

@@ -2,6 +2,7 @@
 
 #include "campaign/campaign_folder.hpp"
 #include "core/error.hpp"
+#include "deck/deck.hpp"
 
 #include <gmock/gmock.h>
 
@@ -11,7 +12,12 @@ namespace {
 using campaign::overwrite;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
+
+double steady(int cycle) {
+    return 0.5 + 0.01 * (cycle % 2);
+}
 
 /// The folder of a case with the runs of its packings.
 class ByHand : public testing::Test {
@@ -48,9 +54,32 @@ TEST_F(ByHand, MeasuresNoMoreCyclesThanStagesHave) {
 // A copy that was put aside is no packing of the case, but can be measured by its own name.
 TEST_F(ByHand, ACopyOfAPackingIsNotThatPacking) {
     auto const s = write_case(example_campaign);
-    write_run("packing-1-old", s, 30, [](int) { return 0.5; });
+    write_run("packing-1-old", s, 30, steady);
     EXPECT_THROW(measure_by_hand(folder), core::InputError);
     EXPECT_EQ(measure_by_hand(folder / "packing-1-old").packings.front().cycles, 30);
+}
+
+// The keys of a record are nominal values to 1 %: a deck that nobody changed moves as the record does, here
+// with an amplitude that is 0.5 % larger. One that is 2 % larger was changed.
+TEST_F(ByHand, AnUntouchedDeckMovesAsItsRecord) {
+    std::string const keys = "frequency = \"10 Hz\"\nwaveform = \"record.csv\"";
+    double const amplitude = 1.005 * 0.006, beta = std::numbers::pi / 6;
+    std::string record = "time_s,x_m,z_m\n";
+    for (int i = 0; i < 80; ++i) {
+        double const place = amplitude * std::sin(2 * std::numbers::pi * i / 80);
+        record += fmt::format("{},{},{}\n", i / 800.0, place * std::cos(beta), place * std::sin(beta));
+    }
+    overwrite(folder / "record.csv", record);
+    auto s = write_case(with("throw_number = 2.0", keys));
+    overwrite(folder / "packing-1/in.liggghts",
+              deck::make_deck(prepare::prepare_case(s), {1}).files.at(deck::drive_file));
+    s.trough.amplitude = amplitude;
+    write_run("packing-1", s, 30, steady);
+    EXPECT_THAT(measure_by_hand(folder).changes, IsEmpty());
+    s.trough.amplitude = 1.02 * 0.006;
+    write_run("packing-1", s, 30, steady);
+    EXPECT_THAT(measure_by_hand(folder).changes,
+                ElementsAre(HasSubstr("an amplitude of 6.12 mm at 30 deg and 10 Hz, and not with 6.0")));
 }
 
 }  // namespace
