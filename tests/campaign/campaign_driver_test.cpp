@@ -116,10 +116,10 @@ TEST_F(CampaignDriver, EstimatesTheCostFromTheCostSoFar) {
     EXPECT_NEAR(known->core_time_to_go, known->time_to_go * 0.15 / known->elapsed, 1e-12);
 }
 
-// Files that are damaged are found when the result is made. Their packings are then unfinished again, and are
-// run once more: were their markers left, a task of a cluster, which empties no folder, would not run what is
-// marked as finished.
-TEST_F(CampaignDriver, RunsDamagedPackingsAgainWithoutTheirMarkers) {
+// Files that are damaged are found when the result is made. Their packing is then unfinished again, and is
+// run once more, alone: were its marker left, a task of a cluster, which empties no folder, would not run
+// what is marked as finished.
+TEST_F(CampaignDriver, RunsADamagedPackingAgainWithoutItsMarker) {
     int marked = 0;
     auto const damaged = [&](PackingOrder const& order) {
         fs::path const packing = planned.packing_folder(order.packing.number);
@@ -132,8 +132,7 @@ TEST_F(CampaignDriver, RunsDamagedPackingsAgainWithoutTheirMarkers) {
         return EndedPacking{order.id(), {}, "", order.packing.cycles};
     };
     EXPECT_THROW(run(damaged, 0, true), core::InputError) << "damaged a second time";
-    std::vector<int> const& begun = ScriptedExecutor::begun;
-    EXPECT_EQ(std::ranges::count(begun, begun.front()), 2);
+    EXPECT_EQ(ScriptedExecutor::begun, (std::vector<int>{1, 2, 1})) << "the second was not looked at";
     EXPECT_EQ(marked, 0);
 }
 

@@ -62,7 +62,7 @@ struct DrivenCase {
     int counted = 0, done = 0;                   ///< packings of it in Progress
     double expected = 0;                         ///< work that is left of it
     int attempts = 0;                            ///< failed ones of earlier runs
-    bool was_repaired = false;                   ///< its packings were found damaged once
+    std::set<int> repaired = {};                 ///< packings that were found damaged once
     bool has_ended = false;
 };
 
@@ -277,7 +277,7 @@ class Driver {
                attempts_[ended.id]++ < settings_.retries;
     }
 
-    /// Writes the result of a case. Packings that turn out to be damaged are run again, once.
+    /// Writes the result of a case. A packing that turns out to be damaged is run again, once.
     void finish(DrivenCase& one, CaseDecision const& decision) {
         PlannedCase const& planned = *one.known.planned;
         try {
@@ -287,11 +287,10 @@ class Driver {
             end_case(one);
             count_result(result.outcome);
             observer_.case_ended(planned, result.outcome, evaluate::remark_on(result));
-        } catch (core::InputError const&) {
-            if (std::exchange(one.was_repaired, true)) throw;
-            for (int const packing : decision.result)
-                evaluate::remove_marker(planned.packing_folder(packing));
-            one.known.packings.clear();
+        } catch (DamagedPacking const& damaged) {
+            if (!one.repaired.insert(damaged.packing()).second) throw;
+            evaluate::remove_marker(planned.packing_folder(damaged.packing()));
+            one.known.packings.erase(damaged.packing());
             decide(one);
             return;
         }

@@ -27,6 +27,19 @@ bool is_made_of(store::CaseRecord const& record, ResultParts const& parts) {
            });
 }
 
+/// A packing from its folder. @throws DamagedPacking
+evaluate::EvaluatedPacking read_whole_packing(PlannedCase const& planned, int packing, int cycles) {
+    try {
+        if (auto one =
+                evaluate::read_packing(*planned.prepared, packing, planned.packing_folder(packing), cycles))
+            return std::move(*one);
+    } catch (core::InputError const& error) {
+        throw DamagedPacking(packing, error.what());
+    }
+    throw DamagedPacking(
+        packing, fmt::format("packing {} of case {} is not finished or is damaged", packing, planned.id));
+}
+
 }  // namespace
 
 store::CaseRecord finish_case(PlannedCase const& planned, std::string const& engine_version,
@@ -38,14 +51,8 @@ store::CaseRecord finish_case(PlannedCase const& planned, std::string const& eng
     for (int const packing : parts.packings) {
         auto known = evaluated.extract(packing);
         bool const is_known = !known.empty() && known.mapped().record.series.cycles() == parts.cycles;
-        auto one = is_known ? std::optional(std::move(known.mapped()))
-                            : evaluate::read_packing(*planned.prepared, packing,
-                                                     planned.packing_folder(packing), parts.cycles);
-        if (!one) {
-            throw core::InputError(
-                fmt::format("packing {} of case {} is not finished or is damaged", packing, planned.id));
-        }
-        used.emplace(packing, std::move(*one));
+        used.emplace(packing, is_known ? std::move(known.mapped())
+                                       : read_whole_packing(planned, packing, parts.cycles));
     }
     store::CaseRecord record =
         evaluate::evaluate_case(*planned.prepared, planned.id, engine_version, std::move(used));

@@ -3,6 +3,7 @@
 #include "campaign/execute/packing_run.hpp"
 #include "campaign/state/file_lock.hpp"
 #include "campaign/state/plan.hpp"
+#include "core/error.hpp"
 #include "evaluate/packing.hpp"
 
 #include <optional>
@@ -19,11 +20,23 @@ struct ResultParts {
     int cycles;                 ///< of each of them, from the first
 };
 
+/// A packing of a result that is not finished, or whose files are damaged.
+class DamagedPacking : public core::InputError {
+  public:
+    /// @param packing  its number
+    /// @param message  one line without a line end
+    DamagedPacking(int packing, std::string const& message) : InputError(message), packing_(packing) {}
+    int packing() const { return packing_; }  ///< its number
+
+  private:
+    int packing_;
+};
+
 /// Writes the case's result, unless it has one from as many packings and cycles. The packings' checkpoints
 /// are removed.
 /// @param evaluated  those of them that this process measured itself; the others are read from their folders
 /// @return the result, also when it was there before
-/// @throws core::InputError when a packing is not finished or its files are damaged
+/// @throws DamagedPacking for the first one that is not finished or has damaged files
 /// @throws core::MissingError when the disk refuses
 store::CaseRecord finish_case(PlannedCase const& planned, std::string const& engine_version,
                               ResultParts const& parts, evaluate::EvaluatedPackings evaluated = {});
