@@ -115,29 +115,46 @@ TEST_F(BatchTest, TheScriptQueuesAWarnedTaskAgain) {
     EXPECT_EQ(core::read_file(folder / "said"), "told\ntold\n");
 }
 
+/// What is found of a batch where Slurm's squeue is this script.
+std::vector<TaskActivity> survey_with(std::string const& squeue, Batch& batch, fs::path const& bin) {
+    fs::create_directories(bin);
+    for (auto const& [name, script] : {std::pair{"squeue", squeue}, {"sacct", std::string("exit 1\n")}}) {
+        std::ofstream(bin / name) << "#!/bin/sh\n" << script;
+        fs::permissions(bin / name, fs::perms::owner_all);
+    }
+    std::string const path = std::getenv("PATH");
+    ::setenv("PATH", fmt::format("{}:{}", bin.string(), path).c_str(), 1);
+    std::vector<Batch> batches{batch};
+    auto const found = survey_tasks(batches);
+    ::setenv("PATH", path.c_str(), 1);
+    batch = batches[0];
+    return found[0];
+}
+
 // A driver that was killed after it had submitted a batch: the job has the batch's name. What Slurm says of
 // its tasks is read as squeue(1) has it.
 TEST_F(BatchTest, AJobWithoutAnIdIsFoundByItsName) {
-    Batch const batch = write_batch(folder, tasks, {"/usr/bin/true", 1, {}, 0, false, {}});
-    fs::create_directories(folder / "bin");
+    Batch batch = write_batch(folder, tasks, {"/usr/bin/true", 1, {}, 0, false, {}});
     std::string const squeue = fmt::format(
         "case \"$*\" in *'-n {} '*) echo 4711; exit ;; *'-j 4711 '*) ;; *) exit 0 ;; esac\n"
         "echo '4711_0|TIMEOUT|TimeLimit'\necho '4711_1|RUNNING|None'\n"
         "echo '4711_2|OUT_OF_MEMORY|None'\n",
         batch.name);
-    for (auto const& [name, script] : {std::pair{"squeue", squeue}, {"sacct", std::string("exit 1\n")}}) {
-        std::ofstream(folder / "bin" / name) << "#!/bin/sh\n" << script;
-        fs::permissions(folder / "bin" / name, fs::perms::owner_all);
-    }
-    std::string const path = std::getenv("PATH");
-    ::setenv("PATH", fmt::format("{}:{}", (folder / "bin").string(), path).c_str(), 1);
-    std::vector<Batch> batches{batch};
-    auto const found = survey_tasks(batches);
-    ::setenv("PATH", path.c_str(), 1);
-    EXPECT_EQ(batches[0].job, 4711);
-    EXPECT_EQ(found[0][0].outcome, core::Outcome::time_limit) << found[0][0].message;
-    EXPECT_EQ(found[0][1].state, PackingActivity::running);
-    EXPECT_EQ(found[0][2].outcome, core::Outcome::out_of_memory) << found[0][2].message;
+    auto const found = survey_with(squeue, batch, folder / "bin");
+    EXPECT_EQ(batch.job, 4711);
+    EXPECT_EQ(found[0].outcome, core::Outcome::time_limit) << found[0].message;
+    EXPECT_EQ(found[1].state, PackingActivity::running);
+    EXPECT_EQ(found[2].outcome, core::Outcome::out_of_memory) << found[2].message;
+}
+
+// A driver that was killed between the batch's files and sbatch: Slurm has nothing of this name.
+TEST_F(BatchTest, ABatchThatWasNotSubmittedSaysSo) {
+    Batch batch = write_batch(folder, tasks, {"/usr/bin/true", 1, {}, 0, false, {}});
+    auto const found = survey_with("exit 0\n", batch, folder / "bin");
+    EXPECT_EQ(found[0].state, PackingActivity::ended);
+    EXPECT_EQ(found[0].outcome, core::Outcome::interrupted);
+    EXPECT_EQ(found[0].message,
+              fmt::format("Slurm knows no job {}: the run ended before it was submitted", batch.name));
 }
 
 }  // namespace

@@ -149,10 +149,13 @@ TaskActivity activity_of(Batch const& batch, std::size_t index, TaskReports cons
     if (auto const marked = by_marker(batch, index, names)) return *marked;
     auto const found = reports.find({batch.name, static_cast<int>(index)});
     if (found == reports.end()) {
-        return {PackingActivity::ended, core::Outcome::interrupted,
-                fmt::format("Slurm no longer knows task {} of job {}, which ended without writing its exit "
-                            "marker",
-                            index, batch.job.value_or(0))};
+        return {
+            PackingActivity::ended, core::Outcome::interrupted,
+            batch.job
+                ? fmt::format("Slurm no longer knows task {} of job {}, which ended without writing its "
+                              "exit marker",
+                              index, *batch.job)
+                : fmt::format("Slurm knows no job {}: the run ended before it was submitted", batch.name)};
     }
     TaskReport const& report = found->second;
     if (report.state == TaskReport::ended) return {PackingActivity::ended, report.outcome, report.message};
