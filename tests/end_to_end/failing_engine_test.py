@@ -59,6 +59,13 @@ class FailingEngine(EndToEndTest):
         self.break_engine(edit.replace("PROGRAM", "/^[0-9]/ {$3 *= 2}"))
         self.assert_all_fail("outputs-incomplete", "contradicts itself", attempts=8)
 
+        # A table larger than is read, while the engine runs and when it has ended.
+        grow = "truncate -s 300M cycles.csv"
+        self.break_engine(f'test "$2" != in.liggghts || {{ {grow}; sleep 2; exit 7; }}')
+        self.assert_all_fail("engine-error", "exit code 7 and no message", attempts=9)
+        self.break_engine(f'VIBROTROUGH_TEST_BREAK= "{self.engine}" "$@"; test ! -f cycles.csv || {grow}; exit 0')
+        self.assert_all_fail("outputs-incomplete", "it is larger than 256 MB", attempts=10)
+
         self.break_engine("")
         self.run_campaign(self.campaign)
         self.assertEqual(self.failures(), [])

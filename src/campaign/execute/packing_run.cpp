@@ -177,8 +177,8 @@ void PackingRun::inspect() {
         auto const interim = evaluate::estimate_so_far(*planned_.prepared, folder_);
         cycles_ = interim.cycles;
         if (interim.estimate) estimate_ = interim.estimate;
-    } catch (core::InputError const&) {
-        // Judged when the engine has ended.
+    } catch (core::Error const&) {
+        // Damaged, or larger than is read: judged when the engine has ended.
     }
 }
 
@@ -222,7 +222,12 @@ std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
 
 /// Evaluates what the engine wrote, and marks the packing as finished.
 PackingEnd PackingRun::conclude(long last_step) {
-    auto const files = evaluate::read_packing_files(folder_);
+    evaluate::PackingFiles files;
+    try {
+        files = evaluate::read_packing_files(folder_);
+    } catch (core::MissingError const& error) {  // too large: the other packings go on
+        return {core::Outcome::outputs_incomplete, error.what()};
+    }
     auto evaluation = evaluate::evaluate_outputs(*planned_.prepared, packing_.number, files, last_step);
     if (auto const* const fault = std::get_if<evaluate::UnusableOutputs>(&evaluation)) {
         remove_checkpoints(folder_);  // or a later run would only read the same outputs again
