@@ -32,14 +32,14 @@ double displacement_at(ShakeTest const& test, double friction) {
     return shake(test, friction).max_relative_displacement;
 }
 
-/// mu for a displacement, limited to the ends of the possible range.
+/// mu for a displacement above 0, limited to the ends of the possible range.
 double friction_at(ShakeTest const& test, double displacement) {
     double const slope = std::abs(test.tan_inclination);
     double const lowest = slope * (1 + 1e-6) + 1e-6;
     // With mu above K / cos(alpha) + |tan(alpha)| there is no slip.
     double const highest = test.machine_number * std::hypot(1, test.tan_inclination) + slope;
     auto const miss = [&](double mu) { return displacement_at(test, mu) - displacement; };
-    if (lowest >= highest || displacement <= 0) return highest;
+    if (lowest >= highest) return highest;
     double const most = miss(lowest);
     if (most <= 0) return lowest;
     std::uintmax_t iterations = 200;
@@ -71,14 +71,14 @@ FrictionEstimate friction_from_shake(ShakeTest const& test, double displacement,
     detail::require_range(displacement > 0 && displacement < 1e3, "max_relative_displacement", displacement,
                           "(0, 1000)");
     detail::require_range(uncertainty >= 0 && uncertainty < 1e3, "uncertainty", uncertainty, "[0, 1000)");
-    FrictionEstimate estimate{friction_at(test, displacement), 0, 0, ""};
+    FrictionEstimate estimate{friction_at(test, displacement), 0, {}, ""};
     if (std::abs(displacement_at(test, estimate.friction) - displacement) > 1e-6) {
         throw std::invalid_argument("no friction coefficient gives a max_relative_displacement of " +
                                     detail::short_text(displacement) + " amplitudes at machine_number " +
                                     detail::short_text(test.machine_number));
     }
     estimate.low = friction_at(test, displacement + uncertainty);
-    estimate.high = friction_at(test, displacement - uncertainty);
+    if (displacement > uncertainty) estimate.high = friction_at(test, displacement - uncertainty);
     estimate.mode = shake(test, estimate.friction).mode;
     return estimate;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 // The friction coefficient from a horizontal shake test (Sloot & Kruyt 1996, section 3.5 and Fig. 8): a box
@@ -30,8 +31,11 @@ bool rests_within_cycle(std::string const& mode);
 
 /// The friction that explains a measured displacement.
 struct FrictionEstimate {
-    double friction;   ///< mu
-    double low, high;  ///< for the displacement plus and minus its uncertainty, respectively
+    double friction;  ///< mu
+    double low;       ///< for the displacement plus its uncertainty
+    /// For the displacement minus its uncertainty; none where that is not above 0, because every mu from K on
+    /// has no slip.
+    std::optional<double> high;
     std::string mode;  ///< at `friction`; in modes other than PN the mass rests between slides and static
                        ///< friction matters
 };

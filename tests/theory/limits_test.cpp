@@ -115,9 +115,15 @@ TEST(FrictionTest, InverseUndoesTheForwardCurve) {
                 EXPECT_NEAR(estimate.friction, mu, 1e-6);
                 EXPECT_LT(estimate.low, mu);
                 EXPECT_GT(estimate.high, mu);
-                EXPECT_NEAR(shake(test, estimate.high).max_relative_displacement, x - 0.01, 1e-6);
+                EXPECT_NEAR(shake(test, estimate.high.value()).max_relative_displacement, x - 0.01, 1e-6);
             }
         }
+    }
+    // With a displacement of 0 in the interval every mu from K on is possible.
+    for (double const uncertainty : {0.01, 0.05}) {
+        FrictionEstimate const open = friction_from_shake({1.5}, 0.01, uncertainty);
+        EXPECT_FALSE(open.high);
+        EXPECT_LT(open.low, open.friction);
     }
     EXPECT_THROW(friction_from_shake({1}, 2.5, 0), std::invalid_argument);
     EXPECT_THROW(friction_from_shake({1}, 0, 0), std::invalid_argument);

@@ -125,6 +125,12 @@ TEST(TheoryFriction, FindsMuFromTheDisplacement) {
     EXPECT_EQ(answer.at("mode"), "PN");
     EXPECT_EQ(answer.at("warning"), "");
     EXPECT_NE(ask("friction --machine-number 0.5 --max-relative-displacement 0.4").at("warning"), "");
+    std::string const hardly =
+        "friction --machine-number 1.5 --max-relative-displacement 0.01 --uncertainty 0.05";
+    EXPECT_TRUE(ask(hardly).at("friction_high").is_null());
+    EXPECT_TRUE(ask(hardly).at("friction_uncertainty").is_null());
+    EXPECT_NE(run_program("theory " + hardly).text.find("friction  1.429625, 1.328824 or more"),
+              std::string::npos);
     EXPECT_NEAR(ask("friction --machine-number 1.5 --friction 0.3").at("max_relative_displacement"), x, 1e-6);
     expect_refused("friction --machine-number 1.5 --max-relative-displacement 2.5",
                    "no friction coefficient");

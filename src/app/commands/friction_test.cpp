@@ -25,8 +25,8 @@ void print(evaluate::LayerFriction const& test) {
         fmt::print(" r, creeps {:+.4f} r per cycle; ", test.creep);
     }
     if (test.friction) {
-        fmt::print("effective friction {:.4f} ({:.4f} to {:.4f}), mode {}", *test.friction, *test.low,
-                   *test.high, test.mode);
+        fmt::print("effective friction {:.4f} ({:.4f} {}), mode {}", *test.friction, *test.low,
+                   test.high ? fmt::format("to {:.4f}", *test.high) : "or more", test.mode);
         if (!test.message.empty()) fmt::print("; {}", test.message);
     } else {
         fmt::print("no friction coefficient: {}", test.message);
@@ -34,18 +34,19 @@ void print(evaluate::LayerFriction const& test) {
     fmt::print("\n");
 }
 
-/// Says of how many cases 'compare' shows the friction: of those whose layer is the one that was tested.
+/// Says of how many cases 'compare' shows the friction: of those whose layer is the one that was tested, if
+/// the interval has an upper end.
 void tell_shown(scenario::Campaign const& campaign, std::vector<evaluate::LayerFriction> const& tests,
                 fs::path const& folder) {
     auto const is_tested = [&](scenario::Scenario const& one) {
         std::string const layer = layer_key(one);
-        return std::ranges::any_of(tests,
-                                   [&](auto const& test) { return test.friction && test.layer == layer; });
+        return std::ranges::any_of(tests, [&](auto const& test) { return test.high && test.layer == layer; });
     };
     auto const count = std::ranges::count_if(campaign.cases, is_tested);
     auto const all = std::ssize(campaign.cases);
-    if (std::ranges::none_of(tests, [](auto const& test) { return test.friction.has_value(); })) {
-        fmt::print("no friction was found, so that 'vibrotrough compare' has none to show\n");
+    if (std::ranges::none_of(tests, [](auto const& test) { return test.high.has_value(); })) {
+        fmt::print(
+            "no friction with an interval was found, so that 'vibrotrough compare' has none to show\n");
         return;
     }
     fmt::print("'vibrotrough compare {}' shows the theory at this friction for {} of {} cases{}\n",

@@ -37,13 +37,14 @@ void inverse(TheoryFrictionArguments const& options, theory::ShakeTest const& te
     double const x = options.quantities.required("--max-relative-displacement");
     double const dx = options.quantities.value("--uncertainty").value_or(0);
     theory::FrictionEstimate const estimate = theory::friction_from_shake(test, x, dx);
-    double const half = (estimate.high - estimate.low) / 2;
+    std::optional<double> half;
+    if (estimate.high) half = (*estimate.high - estimate.low) / 2;
     std::string const warning = warning_for(estimate.mode);
     if (options.json) {
         Json const answer = {{"friction", estimate.friction},
                              {"friction_low", estimate.low},
-                             {"friction_high", estimate.high},
-                             {"friction_uncertainty", half},
+                             {"friction_high", number_or_null(estimate.high)},
+                             {"friction_uncertainty", number_or_null(half)},
                              {"mode", estimate.mode},
                              {"warning", warning},
                              {"machine_number", test.machine_number},
@@ -52,7 +53,9 @@ void inverse(TheoryFrictionArguments const& options, theory::ShakeTest const& te
         fmt::print("{}\n", answer.dump(2));
     } else {
         fmt::print("friction  {:.6f}", estimate.friction);
-        if (dx > 0) fmt::print(" +- {:.6f}, from {:.6f} to {:.6f}", half, estimate.low, estimate.high);
+        if (half && dx > 0)
+            fmt::print(" +- {:.6f}, from {:.6f} to {:.6f}", *half, estimate.low, *estimate.high);
+        if (!half) fmt::print(", {:.6f} or more, because the box may not have slid at all", estimate.low);
         fmt::print("\nmode      {}\n", estimate.mode);
     }
     if (!warning.empty()) tell("vibrotrough: warning: {}\n", warning);
