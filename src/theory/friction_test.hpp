@@ -17,13 +17,13 @@ struct ShakeTest {
 /// The motion of a mass on a plate that is shaken.
 struct ShakeMotion {
     double max_relative_displacement;  ///< largest displacement relative to the plate in one slide, in
-                                       ///< amplitudes r; in [0, 2)
+                                       ///< amplitudes r; in [0, 2) on a level plate
     std::string mode;                  ///< letters of the phases in order, e.g. "PN"
 };
 
 /// The displacement as a function of friction, as in Fig. 8 (Eq. 10 with Eq. 20 in the PN mode, the solver
-/// elsewhere), for mu > |tan(alpha)|. It decreases with mu from 2 (at mu = 0 the box does not move in space)
-/// to 0 at mu = K.
+/// elsewhere), for mu > |tan(alpha)|. On a level plate it decreases with mu from 2 (at mu = 0 the box does
+/// not move in space) to 0 at mu = K.
 ShakeMotion shake(ShakeTest const& test, double friction);
 
 /// The mass rests within the cycle, so that static friction acts on the result: the mode is not PN.
@@ -42,7 +42,7 @@ struct FrictionEstimate {
 
 /// The friction coefficient from the measured displacement X and its uncertainty, as a bracketed root of
 /// shake(), which is monotone in mu.
-/// @param displacement  X in amplitudes, in (0, 2)
+/// @param displacement  X in amplitudes, above 0, and on a level plate below 2
 /// @param uncertainty   of X, >= 0; the interval of mu is that of X - uncertainty to X + uncertainty
 /// @throws std::invalid_argument when no friction coefficient gives this displacement
 FrictionEstimate friction_from_shake(ShakeTest const& test, double displacement, double uncertainty);

@@ -133,7 +133,10 @@ TEST(TheoryFriction, FindsMuFromTheDisplacement) {
               std::string::npos);
     EXPECT_NEAR(ask("friction --machine-number 1.5 --friction 0.3").at("max_relative_displacement"), x, 1e-6);
     expect_refused("friction --machine-number 1.5 --max-relative-displacement 2.5",
-                   "no friction coefficient");
+                   "at machine_number 1.5; write a smaller displacement\n");
+    for (char const* const slips : {"--friction 0", "--friction 0.2 --tan-inclination 0.3"})
+        expect_refused("friction --machine-number 1.5 " + std::string(slips),
+                       "larger than |tan(alpha)|; write a larger --friction\n");
     expect_refused("friction --machine-number 1.5", "--max-relative-displacement is missing");
 }
 

@@ -66,11 +66,12 @@ void run_theory_friction(TheoryFrictionArguments const& options) {
     theory::ShakeTest test{given.required("--machine-number")};
     test.tan_inclination = given.value("--tan-inclination").value_or(0);
     given.refuse_both("--friction", "--max-relative-displacement");
+    bool const is_forward = given.has("--friction");
     try {
-        given.has("--friction") ? forward(options, test) : inverse(options, test);
+        is_forward ? forward(options, test) : inverse(options, test);
     } catch (std::invalid_argument const& error) {
-        throw core::InputError(fmt::format(
-            "{}; write a displacement of 0 to 2 amplitudes, or another machine number", error.what()));
+        throw core::InputError(fmt::format("{}; write a {}", error.what(),
+                                           is_forward ? "larger --friction" : "smaller displacement"));
     }
 }
 
