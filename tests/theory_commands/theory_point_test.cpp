@@ -54,6 +54,26 @@ TEST(TheoryPoint, TakesWhatPeopleWrite) {
     EXPECT_NE(range.text.find("is a range, and here one value is needed"), std::string::npos) << range.text;
 }
 
+// Where layers were simulated the answer says how they differ, and which command has them: the atlas ends at
+// a throw number of 3.2 and at slopes of 0.1. A layer was twice as fast on the level between 1.2 and 2.3.
+TEST(TheoryPoint, PromisesALayerWhereThereAreLayers) {
+    std::pair<char const*, std::pair<bool, bool>> const points[] = {
+        {"--throw-number 1.7 --friction 0.23", {true, true}},
+        {"--throw-number 1.7 --friction 0.23 --tan-inclination -0.05", {false, true}},
+        {"--throw-number 3 --friction 0.23", {false, true}},
+        {"--throw-number 12 --friction 0.23", {false, false}},
+        {"--throw-number 1.7 --friction 0.23 --inclination '10 deg'", {false, false}},
+        {"--throw-number 1.7 --friction 0.23 --tan-inclination -0.3", {false, false}},  // runs away
+    };
+    for (auto const& [options, expected] : points) {
+        std::string const text =
+            run_program("theory point --tan-vibration-angle 0.5 " + std::string(options)).text;
+        EXPECT_NE(text.find("This is a single mass"), std::string::npos) << text;
+        EXPECT_EQ(text.find("up to twice as fast") != std::string::npos, expected.first) << text;
+        EXPECT_EQ(text.find("'vibrotrough predict'") != std::string::npos, expected.second) << text;
+    }
+}
+
 // Possible, but hardly any machine: a warning says what is usual and which slip would explain it.
 TEST(TheoryPoint, WarnsOfUnusualNumbers) {
     std::string const angle = " --vibration-angle \"25 deg\" ";

@@ -1,5 +1,6 @@
 #include "app/commands/command.hpp"
 #include "app/commands/theory/options.hpp"
+#include "atlas/tables.hpp"
 #include "theory/coexisting.hpp"
 #include "theory/quantities.hpp"
 #include "theory/tested_range.hpp"
@@ -185,13 +186,30 @@ void withhold(theory::Conveyor const& input, std::string const& why, bool json) 
         why);
 }
 
+/// Whether the atlas has layers of this drive, slope and friction.
+bool has_layers(theory::PointMass const& point) {
+    double const place[] = {point.throw_number, point.tan_vibration_angle, point.tan_inclination,
+                            point.friction};  // the first inputs of the atlas
+    for (std::size_t i = 0; i < std::size(place); ++i) {
+        atlas::SurfaceInput const& range = atlas::inputs()[i];
+        if (place[i] < range.low || place[i] > range.high) return false;
+    }
+    return true;
+}
+
 /// Where simulated layers are known to differ from the point mass: the throw numbers of
-/// validation/why_theory_fails.
+/// validation/why_theory_fails, whose trough is level.
 void print_difference(theory::PointMass const& point) {
-    bool const is_known = point.throw_number > 1.2 && point.throw_number < 2.3;
-    fmt::print("\nThis is a single mass that slides. {}; 'vibrotrough predict' gives the speed of a layer.\n",
-               is_known ? "Here layers of grains that roll were up to twice as fast"
-                        : "Layers of grains that roll differ most from it between throw numbers 1.2 and 2.3");
+    fmt::print("\nThis is a single mass that slides, and not a layer of grains.");
+    if (has_layers(point)) {
+        bool const is_known =
+            point.throw_number > 1.2 && point.throw_number < 2.3 && point.tan_inclination == 0;
+        fmt::print(" {}; 'vibrotrough predict' gives the speed of a layer.",
+                   is_known
+                       ? "Here layers of grains that roll were up to twice as fast"
+                       : "Layers of grains that roll differ most from it between throw numbers 1.2 and 2.3");
+    }
+    fmt::print("\n");
 }
 
 /// A motion that runs away has no speed, which a script must notice.
