@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <regex>
 #include <string>
 #include <system_error>
@@ -199,15 +200,16 @@ double parse_quantity(std::string_view text, std::string const& unit) {
     if (!to || ut_are_convertible(from.get(), to.get()) == 0) {
         throw QuantityError(fmt::format("'{}' cannot be converted to {}", rest, unit));
     }
+    std::unique_ptr<cv_converter, FreeConverter> const converter(ut_get_converter(from.get(), to.get()));
+    double const result = cv_convert_double(converter.get(), number) + 0.0;  // "-0 deg" is 0
     // In udunits2 a radian is the number 1. Without this check "rad/s" would become a frequency that is wrong
     // by 2 pi, and "5 %" would become an angle.
     if (is_angular(from.get()) != is_angular(to.get())) {
         if (is_angular(to.get())) throw QuantityError(fmt::format("'{}' is not a unit of angle", rest));
-        throw QuantityError(fmt::format("'{}' contains an angle, {} does not", rest, unit),
-                            "write 340 turns per minute as 340 rpm");
+        throw QuantityError(
+            fmt::format("'{}' contains an angle, {} does not", rest, unit),
+            unit == "Hz" ? fmt::format("write {:.5g} rpm", 60 * result / (2 * std::numbers::pi)) : "");
     }
-    std::unique_ptr<cv_converter, FreeConverter> const converter(ut_get_converter(from.get(), to.get()));
-    double const result = cv_convert_double(converter.get(), number) + 0.0;  // "-0 deg" is 0
     if (!std::isfinite(result)) throw QuantityError(fmt::format("'{}' is too large", whole));
     return result;
 }

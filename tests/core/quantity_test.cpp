@@ -132,8 +132,9 @@ TEST(Quantity, MistakesAreNamed) {
     EXPECT_EQ(message("6 mm from 2", "m"), "'mm from 2' is not a plain unit");
     EXPECT_EQ(message("0.05 1", "radian"), "'1' is not a plain unit");
     // In udunits2 a radian is the number 1: frequencies would be wrong by a factor of 2 pi.
-    EXPECT_EQ(message("85 rad/s", "Hz"),
-              "'rad/s' contains an angle, Hz does not; write 340 turns per minute as 340 rpm");
+    // 85 x 60 / (2 pi) = 811.69.
+    EXPECT_EQ(message("85 rad/s", "Hz"), "'rad/s' contains an angle, Hz does not; write 811.69 rpm");
+    EXPECT_EQ(message("85 rad/s", "1/s"), "'rad/s' contains an angle, 1/s does not");
     EXPECT_EQ(message("5 %", "radian"), "'%' is not a unit of angle");
     EXPECT_EQ(message("1e308 km", "mm"), "'1e308 km' is too large");
 }

@@ -197,7 +197,7 @@ TEST(TheoryPoint, TakesFrequencyAndStroke) {
     EXPECT_NEAR(moon.at("machine_number"), std::pow(2 * std::acos(-1.0) * 5, 2) * 0.006 / 1.635, 1e-12);
     expect_refused("point --throw-number 2 --frequency '12 Hz' --stroke '12 mm'" + rest, "leave one");
     expect_refused("point --frequency '12 Hz'" + rest, "--amplitude is missing");
-    expect_refused("point --frequency '75 rad/s' --stroke '12 mm'" + rest, "340 rpm");
+    expect_refused("point --frequency '75 rad/s' --stroke '12 mm'" + rest, "write 716.2 rpm");
     expect_refused("point --throw-number 2 --stroke '12 mm' --amplitude '6 mm'" + rest, "only one");
     expect_refused("point --throw-number 2 --bulk-density '800 kg/m3'" + rest, "--amplitude");
 }
