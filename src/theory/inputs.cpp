@@ -77,7 +77,7 @@ std::optional<std::string> Inputs::incomplete() const {
     int const angle = count(Input::vibration_angle_deg, Input::tan_vibration_angle);
     int const slope = count(Input::inclination_deg, Input::tan_inclination);
     if (drive != 1) return "give exactly one of throw_number, machine_number and frequency_hz";
-    if (amplitudes > 1) return "give at most one of " + pair(Input::amplitude_m, Input::stroke_mm);
+    if (amplitudes > 1) return "give the amplitude or the stroke, not both";
     if (get(Input::frequency_hz) && amplitudes == 0)
         return "frequency_hz also needs " + std::string(name_of(Input::amplitude_m)) + " or " +
                std::string(name_of(Input::stroke_mm));

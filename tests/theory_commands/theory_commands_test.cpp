@@ -306,6 +306,9 @@ TEST_F(TheoryFiles, BatchTakesTurnsAndStrokes) {
     expect_refused(command, "the columns 'rpm' and 'frequency_hz' are the same input");
     std::ofstream(path("in.csv")) << "rpm,vibration_angle_deg,friction\n780,30,0.3\n";
     expect_refused(command, "frequency_hz also needs amplitude_m or stroke_mm");
+    std::ofstream(path("in.csv"))
+        << "rpm,amplitude_mm,stroke_mm,vibration_angle_deg,friction\n780,6,12,30,0.3\n";
+    expect_refused(command, "give the amplitude or the stroke, not both");
 }
 
 // A spreadsheet's file: quotes, also with a comma within, and ; with decimal commas.
