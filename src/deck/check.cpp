@@ -323,6 +323,7 @@ std::vector<Finding> check_drive(prepare::PreparedCase const& prepared) {
     check_stroke(findings, prepared);
     check_record(findings, prepared);
     check_unusual(findings, prepared);
+    check_grip(findings, prepared);
     return findings;
 }
 

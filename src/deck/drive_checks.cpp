@@ -1,5 +1,6 @@
 #include "deck/drive_checks.hpp"
 
+#include "theory/conveyor.hpp"
 #include "theory/unusual.hpp"
 
 #include <algorithm>
@@ -75,6 +76,19 @@ void check_unusual(std::vector<Finding>& findings, prepare::PreparedCase const& 
                                               : most(one.name, key, one.value, one.limit, never, advice));
         findings.back().unit = one.unit;
     }
+}
+
+void check_grip(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    theory::Conveyor const& conveyor = c.point_mass.conveyor;
+    double const slope = std::abs(conveyor.point.tan_inclination);
+    double const friction = effective_friction(conveyor).kinetic_friction;
+    if (friction >= slope) return;
+    findings.push_back(least(
+        "friction that holds the layer on its slope", "trough.friction", friction, slope, 0,
+        fmt::format(
+            "make it less steep: on {:.3g} deg with a friction of {:.3g} a layer without another grip runs "
+            "away, and has no mean speed",
+            scenario::in_degrees(c.scenario.trough.inclination), friction)));
 }
 
 void check_record(std::vector<Finding>& findings, prepare::PreparedCase const& c) {

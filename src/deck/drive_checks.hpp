@@ -16,6 +16,9 @@ void check_stroke(std::vector<Finding>& findings, prepare::PreparedCase const& c
 /// of a unit that would explain it.
 void check_unusual(std::vector<Finding>& findings, prepare::PreparedCase const& c);
 
+/// Gravity that exceeds friction, told only where it does: by the theory the layer runs away.
+void check_grip(std::vector<Finding>& findings, prepare::PreparedCase const& c);
+
 /// The noise of a record grows with the square of the order when it is taken for a motion.
 void check_record(std::vector<Finding>& findings, prepare::PreparedCase const& c);
 

@@ -53,6 +53,22 @@ TEST(Check, TellsWhatIsUnusual) {
         << strong.advice;
 }
 
+// tan(20 deg) = 0.364 > 0.23 > tan(12 deg) = 0.213: without grip, up- and downhill, a layer has no mean
+// speed.
+TEST(Check, WarnsOfALayerThatRunsAway) {
+    char const* const item = "friction that holds the layer on its slope";
+    for (char const* const angle : {"20 deg", "-20 deg"}) {
+        Finding const steep = finding(
+            scenario_of(with("inclination = \"0 deg\"", fmt::format("inclination = \"{}\"", angle))), item);
+        EXPECT_EQ(steep.severity, Severity::warning);
+        EXPECT_EQ(steep.measured, 0.23);
+        EXPECT_NEAR(steep.limit, std::tan(pi / 9), 1e-12);
+        EXPECT_NE(steep.advice.find(fmt::format("on {} with a friction of 0.23", angle)), std::string::npos)
+            << steep.advice;
+    }
+    EXPECT_THROW(finding(scenario_of(with("\"0 deg\"", "\"-12 deg\"")), item), std::out_of_range);
+}
+
 // What the user typed is named, in its unit: a stroke, turns of the drive, a bulk density, a throw number.
 TEST(Check, NamesWhatIsUnusualAsItWasTyped) {
     scenario::Scenario const slow = scenario_of(with("amplitude = \"6 mm\"", "stroke = \"120 mm\"",
