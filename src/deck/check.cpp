@@ -33,7 +33,10 @@ char const* stiffness_key(scenario::Scenario const& s) {
 void check_time_step(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     prepare::TimeGrid const& time = c.time;
-    char const* const key = stiffness_key(s);
+    // Who left the modulus to the program has none to lower.
+    bool const is_chosen = !is_block(s) && s.grains.is_modulus_chosen;
+    char const* const key = is_chosen ? "solver.softness" : stiffness_key(s);
+    std::string const soften = fmt::format("{} {}", is_chosen ? "raise" : "lower", key);
     if (!is_block(s)) {
         findings.push_back(most("time step / Rayleigh time", "solver.rayleigh_fraction",
                                 time.rayleigh_fraction, 0.4, 0.8,
@@ -41,11 +44,11 @@ void check_time_step(std::vector<Finding>& findings, prepare::PreparedCase const
     }
     findings.push_back(most("time step / contact time at twice the trough's speed", key,
                             time.contact_fraction, 0.101, 0.2,
-                            "lower solver.rayleigh_fraction or soften the grains"));
+                            "lower solver.rayleigh_fraction or " + soften));
     findings.push_back(least("steps per cycle", "solver.rayleigh_fraction", time.steps_per_cycle, 500, 100,
                              "lower it, so that the motion of the drive is resolved"));
     findings.push_back(most("steps per cycle, at most", key, time.steps_per_cycle, 1e5, never,
-                            "soften the grains or use larger ones, because the run will take long"));
+                            soften + " or use larger grains, because the run will take long"));
 }
 
 /// Softer grains need fewer time steps, but overlaps of a few percent change the packing, and above about ten
@@ -152,14 +155,20 @@ void check_softness(std::vector<Finding>& findings, prepare::PreparedCase const&
     double const wanted = c.scenario.measure.half_width;
     double const s = scenario::wave_number(c.scenario, *c.scenario.grains.youngs_modulus);
     double const limit = s * std::sqrt(wanted / 2 / c.numerics.softness);
+    bool const is_chosen = c.scenario.grains.is_modulus_chosen;
+    constexpr double rounding = 1.05;  // at most, to two digits
+    std::string advice =
+        is_chosen ? fmt::format("lower it to {:.2g}, or allow a half-width of {:.2g}", limit / rounding,
+                                2 * rounding * c.numerics.softness)
+                  : fmt::format("write at least {:.3g} MPa", scenario::stiff_enough(c.scenario, limit) / 1e6);
     // A cohesion needs the modulus that it was chosen for.
-    bool const is_needed = c.scenario.engine.cohesion > 0;
-    std::string const advice = fmt::format(
-        "{}write at least {:.3g} MPa: a landing takes {:.2g} degrees of the cycle to cross the layer "
-        "(validation/deep_layers)",
-        is_needed ? "" : "leave out grains.youngs_modulus, so that it is chosen, or ",
-        scenario::stiff_enough(c.scenario, limit) / 1e6, s * 180 / std::numbers::pi);
-    findings.push_back(most("error of eta by soft grains", "grains.youngs_modulus", c.numerics.softness,
+    if (!is_chosen && c.scenario.engine.cohesion == 0)
+        advice = "leave out grains.youngs_modulus, so that it is chosen, or " + advice;
+    advice += fmt::format(
+        ": a landing takes {:.2g} degrees of the cycle to cross the layer (validation/deep_layers)",
+        s * 180 / std::numbers::pi);
+    findings.push_back(most("error of eta by soft grains",
+                            is_chosen ? "solver.softness" : "grains.youngs_modulus", c.numerics.softness,
                             wanted / 2 * (1 + 1e-9), 2 * wanted, advice));
 }
 
@@ -266,9 +275,12 @@ void check_cost(std::vector<Finding>& findings, prepare::PreparedCase const& c) 
 
 void check_engine(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     prepare::TimeGrid const& time = c.time;
+    bool const has_block = is_block(c.scenario);
     findings.push_back(least("steps between rebuilds of neighbour lists at twice the trough's speed",
-                             "grains.diameter", steps_between_rebuilds(c, time.impact_speed), 5, 1,
-                             "shorten the time step, because grains move out of their neighbour lists"));
+                             has_block ? "solver.block_stiffness" : "solver.rayleigh_fraction",
+                             steps_between_rebuilds(c, time.impact_speed), 5, 1,
+                             fmt::format("{} it, because grains move out of their neighbour lists",
+                                         has_block ? "raise" : "lower")));
     bool const has_frames = c.scenario.output.frames_per_cycle > 0;
     char const* const key = has_frames ? "output.frames_per_cycle" : "measure.max_cycles";
     std::string const advice =

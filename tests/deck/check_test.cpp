@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <set>
 
@@ -209,6 +210,33 @@ TEST(Check, SoftGrainsOfADeepLayerAreAnError) {
     EXPECT_NE(deep.advice.find("leave out grains.youngs_modulus"), std::string::npos) << deep.advice;
     std::string const wide = with("half_width = 0.02", "half_width = 0.05");
     EXPECT_EQ(finding(scenario_of(wide), item).severity, Severity::warning) << "four diameters, for +- 0.05";
+}
+
+// A modulus that the program chose cannot be left out; the cures are what it was chosen by, and the
+// half-width. Both numbers are enough, and no more than a fifth beyond that: two digits, of which 5 % are
+// kept in reserve.
+TEST(Check, AChosenModulusHasTheCuresOfWhoChoseIt) {
+    char const* const item = "error of eta by soft grains";
+    std::string const chosen = with("youngs_modulus = \"5 MPa\"\n", "");
+    auto const narrow = with("half_width = 0.02", "half_width = 0.0005", chosen);
+    Finding const soft = finding(scenario_of(narrow), item);
+    EXPECT_EQ(soft.severity, Severity::error);
+    EXPECT_EQ(soft.key, "solver.softness");
+    double softness = 0, half_width = 0;
+    ASSERT_EQ(std::sscanf(soft.advice.c_str(), "lower it to %lf, or allow a half-width of %lf:", &softness,
+                          &half_width),
+              2)
+        << soft.advice;
+    EXPECT_GT(half_width, 2 * soft.measured);
+    EXPECT_LT(half_width, 1.2 * 2 * soft.measured);
+    Finding const cured =
+        finding(scenario_of(narrow + fmt::format("[solver]\nsoftness = {}\n", softness)), item);
+    EXPECT_EQ(cured.severity, Severity::fine) << cured.measured;
+    EXPECT_EQ(finding(scenario_of(chosen), "steps per cycle, at most").key, "solver.softness");
+    EXPECT_EQ(finding(scenario_of(), "steps per cycle, at most").key, "grains.youngs_modulus");
+    EXPECT_EQ(
+        finding(scenario_of(), "steps between rebuilds of neighbour lists at twice the trough's speed").key,
+        "solver.rayleigh_fraction");
 }
 
 // A block is one body with a contact of its own: nothing of layers, and its contact is T / 300.
