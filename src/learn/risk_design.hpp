@@ -150,7 +150,8 @@ struct RiskDesign {
 ///
 /// One search over drives and depths: first for the layer that carries most at the confidence, which does not
 /// depend on how much is wanted; if it carries the mass flow, for the best by the objective of those that do,
-/// on the thinnest layer that carries it. So a wider range never gives a worse machine, and on a trough of
+/// on the thinnest layer that carries it. So a wider range never gives a worse machine, but
+/// for a percent by which the search and the rounding may miss the best, and on a trough of
 /// `width_needed` the same layer carries the mass flow. Where some layer within the limits is one at which
 /// the models are tested, only such layers are proposed.
 ///

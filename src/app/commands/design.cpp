@@ -186,8 +186,8 @@ it does not know of the grains (rolling friction, friction, restitution) is part
 rolling friction is of the law's. A surface is what your own simulated campaign says. Landing speed, power and mode are always those of the point mass.
 With --grain-diameter and without --model the atlas decides, and the others stand beside it; for grains that do not
 roll (--rolling-friction 0.5 or more) the point mass does. One model decides by the material, never by whether it
-carries the mass flow: a wider range never gives a worse machine. Where the atlas knows no layer within the limits,
-the point mass proposes a machine, without a probability.
+carries the mass flow: a wider range never gives a worse machine, but for a percent. Where the atlas knows no
+layer within the limits, the point mass proposes a machine, without a probability.
 
 The rules of thumb beside the answer know neither friction nor depth. --campaign writes the campaign file that
 checks the design with grains: the same machine, depth, width and grains. What you did not give of the grains is in
