@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "scenario/model/feed.hpp"
 #include "store/hdf5_file.hpp"
 #include "store/schema.hpp"
 
@@ -75,23 +76,23 @@ void for_summary(Function const& function) {
 
 /// How many grains were fed in all, by which evaluate::unsteady_flow knows how far chance moves the flows of
 /// an open trough; empty of other layers.
-std::vector<double> fed_in_all(PackingRecord const& packing) {
+std::vector<double> fed_in_all(PackingRecord const& packing, scenario::Scenario const& scenario) {
     std::vector<double> const& fed = packing.series.open.fed;
-    if (fed.empty()) return {};
+    if (fed.empty() || !scenario::is_open(scenario)) return {};
     return {fed.back()};
 }
 
-Json packing_json(PackingRecord const& packing) {
+Json packing_json(PackingRecord const& packing, scenario::Scenario const& scenario) {
     Json values = Json::array();
     for_summary([&](auto const& field) { values.push_back(to_json(field(packing))); });
-    values.push_back(fed_in_all(packing));
+    values.push_back(fed_in_all(packing, scenario));
     return values;
 }
 
-PackingRecord summary_of_packing(PackingRecord const& packing) {
+PackingRecord summary_of_packing(PackingRecord const& packing, scenario::Scenario const& scenario) {
     PackingRecord summary{};
     for_summary([&](auto const& field) { field(summary) = field(packing); });
-    summary.series.open.fed = fed_in_all(packing);
+    summary.series.open.fed = fed_in_all(packing, scenario);
     return summary;
 }
 
@@ -126,7 +127,7 @@ CaseRecord summary_of(CaseRecord const& record) {
         std::visit([&](auto const& field) { field(summary) = field(record); }, fact.field);
     for_estimate([&](auto member) { summary.estimate.*member = record.estimate.*member; });
     for (PackingRecord const& packing : record.packings)
-        summary.packings.push_back(summary_of_packing(packing));
+        summary.packings.push_back(summary_of_packing(packing, record.scenario));
     return summary;
 }
 
@@ -134,7 +135,8 @@ std::vector<std::uint8_t> pack_summary(CaseRecord const& record) {
     Json facts = Json::array(), estimate = Json::array(), packings = Json::array();
     for (CaseFact const& fact : case_facts())
         std::visit([&](auto const& field) { facts.push_back(to_json(field(record))); }, fact.field);
-    for (PackingRecord const& packing : record.packings) packings.push_back(packing_json(packing));
+    for (PackingRecord const& packing : record.packings)
+        packings.push_back(packing_json(packing, record.scenario));
     for_estimate([&](auto member) { estimate.push_back(to_json(record.estimate.*member)); });
     std::vector<std::uint8_t> const cbor =
         Json::to_cbor(Json::array({std::move(facts), std::move(estimate), std::move(packings)}));
