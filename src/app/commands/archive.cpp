@@ -50,8 +50,7 @@ int run_archive(ArchiveArguments const& options) {
         fmt::print("without figures and report: 'vibrotrough report {}' makes them\n", folder);
     if (options.words.license.empty())
         fmt::print("no licence is named, so that nobody may use it: see --license\n");
-    fmt::print("check it and see its table with: vibrotrough compare {}\n",
-               core::shell_word(output.string()));
+    fmt::print("unpack it, and see its table with: vibrotrough compare FOLDER\n");
     return all_well;
 }
 
