@@ -47,10 +47,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path)
     parser.add_argument("--folder", type=Path, required=True)
+    parser.add_argument("--kinds", nargs="+", default=KINDS, choices=KINDS, help="default: all")
     given = parser.parse_args()
     given.folder.mkdir(parents=True, exist_ok=True)
     print("| campaign | forecast, core-seconds | spent | ratio |\n|---|---|---|---|")
-    for kind in KINDS:
+    for kind in given.kinds:
         campaign, runs = given.folder / f"{kind}.toml", given.folder / kind
         before = forecast(given.program, campaign, runs)
         after = spent(given.program, campaign, runs)
