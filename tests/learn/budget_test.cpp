@@ -160,8 +160,19 @@ TEST(Budget, SaysWhatAnUnknownRollingFrictionCosts) {
     EXPECT_GT(share->sd, 0);
     EXPECT_EQ(deviations(known).count("rolling friction"), 0U);
     EXPECT_NEAR(known.flow_sd, std::sqrt(std::pow(unknown.flow_sd, 2) - std::pow(share->sd, 2)), 1e-9);
-    double const per_speed = 600 * 0.4 * 4 * grain;
-    EXPECT_NEAR(per_speed * (known.sure_speed - unknown.sure_speed), share->gained, 1e-9);
+    EXPECT_NEAR(known.sure_flow - unknown.sure_flow, share->gained, 1e-9);
+}
+
+// The bulk density changes what a trough carries, and not its speed.
+TEST(Budget, TheBulkDensityDoesNotChangeTheSpeed) {
+    DesignTask task = pellets();
+    theory::Drive const drive{15, 0.005, 0.5, 0};
+    RiskDesign const exact = judge_machine(task, drive, 0.03);
+    task.errors.bulk_density = 60;
+    RiskDesign const d = judge_machine(task, drive, 0.03);
+    EXPECT_NEAR(d.sure_speed, exact.sure_speed, 1e-9);
+    EXPECT_NEAR(exact.sure_flow, 600 * 0.3 * 0.03 * exact.sure_speed, 1e-9);
+    EXPECT_LT(d.sure_flow, 0.99 * exact.sure_flow);
 }
 
 // The rolling friction of the grains adds to the dry torque of the law, mu_i + mu_r.

@@ -71,6 +71,7 @@ TEST(Capacity, NamesAContradiction) {
 store::CaseRecord record_with(std::vector<double> const& outflows) {
     store::CaseRecord record{};
     record.scenario.measure.confidence = 0.95;
+    record.scenario.feed.mass_flow = 1;
     for (double const outflow : outflows) {
         store::PackingRecord packing{};
         packing.open.inflow = 1;

@@ -249,18 +249,6 @@ TEST(RiskDesign, SaysWhenItCannotBeReached) {
                 testing::StartsWith("No machine within the limits carries 1000 t/h"));
 }
 
-// The bulk density changes what a trough carries, and not its speed.
-TEST(RiskDesign, TheBulkDensityDoesNotChangeTheSpeed) {
-    DesignTask task = pellets();
-    theory::Drive const drive{15, 0.005, 0.5, 0};
-    RiskDesign const exact = judge_machine(task, drive, 0.03);
-    task.errors.bulk_density = 60;
-    RiskDesign const d = judge_machine(task, drive, 0.03);
-    EXPECT_NEAR(d.sure_speed, exact.sure_speed, 1e-9);
-    EXPECT_NEAR(exact.sure_flow, 600 * 0.3 * 0.03 * exact.sure_speed, 1e-9);
-    EXPECT_LT(d.sure_flow, 0.99 * exact.sure_flow);
-}
-
 // A machine number of 0.5 with an error of 0.1 of the trough's speed conveys nothing with 95 %. The machine
 // is then the one that carries most at an even chance, and no weaker one: here it carries as much as any of a
 // grid of drives does by the point mass, but for the steps of a workshop.
