@@ -51,7 +51,7 @@ TEST_F(ByHand, MeasuresNoMoreCyclesThanStagesHave) {
     EXPECT_THAT(run.packings.front().message, Not(HasSubstr("phases.csv holds")));
 }
 
-// A copy that was put aside is no packing of the case, but can be measured by its own name.
+// A copy that was put aside does not belong to the case, but can be measured by its own name.
 TEST_F(ByHand, ACopyOfAPackingIsNotThatPacking) {
     auto const s = write_case(example_campaign);
     write_run("packing-1-old", s, 30, steady);
