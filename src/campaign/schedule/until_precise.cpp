@@ -113,9 +113,10 @@ class Replay {
         if (statistics() <= deck::trusted_half_width(round.count(), plan_, whole_))
             return wants_drift_removed() && (lengthen(round) || grow(round, packings_of_next_round(round)));
         if (round.count() >= plan_.max_packings) {
-            return half_width_with(lengthened(round)) <= wanted_.half_width && lengthen(round);
+            double const longer = estimate_.half_width ? statistics() * narrowed_by(plan_.max_cycles) : 0;
+            return longer <= wanted_.half_width && lengthen(round);
         }
-        if (round.count() > 1 && cycles_are_cheaper(round) && lengthen(round)) return true;
+        if (round.count() > 1 && longer_is_cheaper(round) && lengthen(round)) return true;
         return grow(round, packings_of_next_round(round));
     }
 
@@ -163,25 +164,48 @@ class Replay {
         return true;
     }
 
+    /// Whether the case will probably be precise with fewer cycles in all when its packings are continued
+    /// than when others are added. What is left of a start-up goes away with longer packings only.
+    bool longer_is_cheaper(Round const& round) const {
+        if (estimate_.drift >= wanted_.half_width) return true;
+        if (!can_be_precise()) return longer_tells_more(round);
+        int const cycles = lengthened(round);
+        int const more = std::max(round.count() + 2, packings_with(1));
+        int const as_many = std::max(round.count(), packings_with(narrowed_by(cycles)));
+        return as_many * cycles < more * round.cycles;
+    }
+
+    /// Packings that are enough where the deviation of one is changed by a factor, at most max_packings.
+    int packings_with(double factor) const {
+        return deck::expected_packings(plan_, whole_,
+                                       {.deviation = factor * estimate_.deviation.value_or(0)});
+    }
+
+    /// Whether the largest number of packings and cycles is probably enough.
+    bool can_be_precise() const {
+        measure::CaseEstimate longest = estimate_;
+        longest.deviation = narrowed_by(plan_.max_cycles) * estimate_.deviation.value_or(0);
+        return measure::packings_needed(longest, wanted_).value_or(1) <= plan_.max_packings;
+    }
+
     /// Twice the cycles cost as much as twice the packings. They leave the variance b + w (L - s) / (2 L - s)
     /// of a packing's mean, with the part b that runs do not share, the part w of the fluctuations, the
     /// length L and the start-up s, where twice the packings leave the equivalent of (b + w) / 2.
-    bool cycles_are_cheaper(Round const& round) const {
+    bool longer_tells_more(Round const& round) const {
         double const within = std::pow(estimate_.deviation_within, 2);
         double const between = std::max(0.0, std::pow(estimate_.deviation.value_or(0), 2) - within);
         double const startup = estimate_.discarded;
         return between < within * startup / (2 * round.cycles - startup);
     }
 
-    /// The half-width that the same number of packings would probably have with so many cycles.
-    double half_width_with(int cycles) const {
-        if (!estimate_.half_width || !estimate_.deviation || *estimate_.deviation == 0) return 0;
+    /// The factor by which the deviation of a packing will probably change with so many cycles: the part of
+    /// the fluctuations within a run goes with the root of the cycles kept, that between packings stays.
+    double narrowed_by(int cycles) const {
+        double const total = std::pow(estimate_.deviation.value_or(0), 2);
+        if (total == 0) return 1;
         double const within = std::pow(estimate_.deviation_within, 2);
-        double const total = std::pow(*estimate_.deviation, 2);
-        double const between = std::max(0.0, total - within);
-        double const kept = estimate_.measured;
-        double const longer = between + within * kept / (cycles - estimate_.discarded);
-        return statistics() * std::sqrt(longer / total);
+        double const longer = within * estimate_.measured / (cycles - estimate_.discarded);
+        return std::sqrt((std::max(0.0, total - within) + longer) / total);
     }
 
     /// Whether measure.max_core_time allows so many cycles more than those of a round. What was spent on

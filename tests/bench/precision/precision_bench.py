@@ -7,7 +7,7 @@ of the statistics that the user reached. The program is then asked for the half-
 one campaign for all cases. Both run one engine at a time on the same machine in the same minutes, case by case in turn where that
 is possible; the processor time of the engines is compared, settling included.
 
-    VIBROTROUGH_BENCH_CASES=6 ctest --preset release -C bench -R bench.Precision -V      # about four minutes
+    VIBROTROUGH_BENCH_CASES=6 ctest --preset release -C bench -R bench.Precision -V      # about half an hour
 
 The program is asked for one half-width in all cases, the widest of the user's: a campaign in which every case is at least that
 precise, for which the user's plan has to suit the worst case.
