@@ -19,19 +19,14 @@ namespace {
 
 using namespace vibrotrough;
 
-/// A table of layers with the model of each as the trend of a surface.
-struct Layers {
-    std::vector<atlas::SurfacePoint> points;
-    double numerical_error;  ///< 95 %, in velocity efficiency
-};
+using Layers = std::vector<atlas::SurfacePoint>;
 
 Layers read(char const* file, atlas::LayerModel model) {
-    std::string const text = core::read_given_file(file);
-    return {atlas::read_layers(text, file, model), atlas::read_numerical_error(text, file)};
+    return atlas::read_layers(core::read_given_file(file), file, model);
 }
 
 /// Takes an input away from all points.
-void drop(std::vector<atlas::SurfacePoint>& points, std::size_t input) {
+void drop(Layers& points, std::size_t input) {
     for (auto& point : points) point.place.erase(point.place.begin() + static_cast<std::ptrdiff_t>(input));
 }
 
@@ -39,19 +34,13 @@ void drop(std::vector<atlas::SurfacePoint>& points, std::size_t input) {
 /// `unseen`.
 void compare(std::string const& name, std::vector<atlas::SurfaceInput> const& inputs, Layers const& known,
              Layers const& unseen, atlas::Trend trend) {
-    atlas::Surface const surface(inputs, known.points, {.trend = trend});
-    double const sure = std::hypot(atlas::scatter_half_width(surface), known.numerical_error);
+    atlas::Surface const surface(inputs, known, {.trend = trend});
     double squares = 0;
-    int held = 0;
-    for (auto const& layer : unseen.points) {
-        auto const [efficiency, half_width] = surface.at(layer.place, layer.theory);
-        double const error = layer.efficiency - efficiency;
-        squares += error * error;
-        held += std::abs(error) <= std::hypot(half_width, sure, layer.half_width) ? 1 : 0;
-    }
-    auto const count = unseen.points.size();
+    for (auto const& layer : unseen)
+        squares += std::pow(layer.efficiency - surface.efficiency_at(layer.place, layer.theory), 2);
+    auto const count = unseen.size();
     auto const quality = surface.quality();
-    fmt::print("{},{:.4f},{},{},{},{:.4f}\n", name, quality.q2, quality.points, count, held,
+    fmt::print("{},{:.4f},{},{},{:.4f}\n", name, quality.q2, quality.points, count,
                std::sqrt(squares / static_cast<double>(count)));
     std::fflush(stdout);
 }
@@ -68,7 +57,7 @@ int main(int argc, char** argv) {
         auto const [known, unseen] = both(LayerModel::atlas);
         auto const [by_law, unseen_by_law] = both(LayerModel::rolling_layer);
         auto const [by_theory, unseen_by_theory] = both(LayerModel::point_mass);
-        fmt::print("surface,q2,layers,random_layers,held,rms\n");
+        fmt::print("surface,q2,layers,random_layers,rms\n");
         compare("of the atlas", atlas::inputs(), known, unseen, atlas::Trend::theory);
         compare("trend: law alone", atlas::inputs(), by_law, unseen_by_law, atlas::Trend::theory);
         compare("trend: point mass", atlas::inputs(), by_theory, unseen_by_theory, atlas::Trend::theory);
@@ -78,8 +67,8 @@ int main(int argc, char** argv) {
             auto some = known, others = unseen;
             std::string const name = "without " + inputs[k].key;
             inputs.erase(inputs.begin() + static_cast<std::ptrdiff_t>(k));
-            drop(some.points, k);
-            drop(others.points, k);
+            drop(some, k);
+            drop(others, k);
             compare(name, inputs, some, others, atlas::Trend::theory);
         }
     } catch (std::exception const& error) {

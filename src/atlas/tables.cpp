@@ -3,6 +3,7 @@
 #include "core/csv.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -105,13 +106,17 @@ std::vector<LayerMotion> read_motions(std::string_view text, std::string const& 
     return layers;
 }
 
-double read_numerical_error(std::string_view text, std::string const& file) {
+NumericalError read_numerical_error(std::string_view text, std::string const& file) {
     core::CsvReader reader(text, file, format());
     Columns const columns(reader);
-    double sum = 0;
-    int count = 0;
-    for (; reader.next(); ++count) sum += columns.number("numerical_error");
-    return count == 0 ? 0 : sum / count;
+    std::array<double, 2> sum{}, count{};
+    while (reader.next()) {
+        std::size_t const is_deep = columns.number("depth") > deepest_estimated ? 1 : 0;
+        sum.at(is_deep) += columns.number("numerical_error");
+        count.at(is_deep) += 1;
+    }
+    auto const mean = [&](std::size_t k) { return count.at(k) > 0 ? sum.at(k) / count.at(k) : 0; };
+    return {mean(0), mean(1)};
 }
 
 std::vector<inference::Hyperparameters> read_draws(std::string_view text, std::string const& file) {

@@ -79,9 +79,18 @@ struct LayerMotion {
 /// @throws core::CsvError that names line and column
 std::vector<LayerMotion> read_motions(std::string_view text, std::string const& file);
 
-/// The mean of the bounds of the layers' numerical errors (95 %), in velocity efficiency: soft grains, a
-/// small box, the time step. More layers do not make it smaller.
-double read_numerical_error(std::string_view text, std::string const& file);
+/// The mean of the layers' numerical errors (95 %), in velocity efficiency: soft grains, a small box, the
+/// time step. More layers do not make it smaller.
+struct NumericalError {
+    double shallow;  ///< of layers up to deepest_estimated
+    double deep;     ///< of deeper ones
+};
+/// Depth in diameters up to which numerical errors are estimated (validation/numerics); for deeper layers
+/// there are only bounds of them.
+inline constexpr double deepest_estimated = 8;
+
+/// Reads the column numerical_error. @throws core::CsvError that names line and column
+NumericalError read_numerical_error(std::string_view text, std::string const& file);
 
 /// Reads draws of the hyperparameters of a surface: CSV with the columns deviation, extra_noise, and the
 /// length of each of inputs(). @throws core::CsvError that names line and column

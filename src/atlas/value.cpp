@@ -45,9 +45,9 @@ std::optional<double> trend_at(Place const& place) {
 }
 
 /// The interval of a layer: that of the surface, what layers scatter about it, and their numerical errors.
-SurfaceValue with_scatter(SurfaceValue const& value) {
+SurfaceValue with_scatter(SurfaceValue const& value, Place const& place) {
     static double const scatter = scatter_half_width(surface());
-    return {value.efficiency, std::hypot(value.half_width, scatter, numerical_error())};
+    return {value.efficiency, std::hypot(value.half_width, scatter, numerical_error(place[depth_input]))};
 }
 
 /// Of the efficiency at a place, when an input lies anywhere in its range: by the three points of Gauss and
@@ -107,9 +107,11 @@ int simulated_layers() {
     return static_cast<int>(surface().points().size());
 }
 
-double numerical_error() {
-    static double const mean = read_numerical_error(layers_table, "layers.csv");
-    return mean;
+double numerical_error(double depth) {
+    static NumericalError const mean = read_numerical_error(layers_table, "layers.csv");
+    constexpr double from = 6;
+    double const share = std::clamp(std::log(depth / from) / std::log(deepest_estimated / from), 0., 1.);
+    return std::lerp(mean.shallow, mean.deep, share);
 }
 
 std::vector<double> error_lengths() {
@@ -156,7 +158,7 @@ std::optional<SurfaceValue> difference_between(Place const& place, Place const& 
 std::optional<SurfaceValue> value_at(Place const& place) {
     auto const trend = trend_at(place);
     if (!trend) return {};
-    return with_scatter(surface().at(place, *trend));
+    return with_scatter(surface().at(place, *trend), place);
 }
 
 std::optional<SurfaceValue> value_of(KnownNumbers const& numbers) {
@@ -173,7 +175,7 @@ std::optional<SurfaceValue> value_of(KnownNumbers const& numbers) {
 std::optional<SurfaceValue> near_value_at(Place const& place) {
     auto const trend = trend_at(place);
     if (!trend) return {};
-    return with_scatter(surface().nearly_at(place, *trend));
+    return with_scatter(surface().nearly_at(place, *trend), place);
 }
 
 }  // namespace vibrotrough::atlas

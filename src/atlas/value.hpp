@@ -26,9 +26,11 @@ inline constexpr double farthest = 0.25;
 /// How many layers were simulated for the atlas.
 int simulated_layers();
 
-/// The part of every half-width that stands for numerical errors of the simulated layers: the mean of their
-/// bounds, in velocity efficiency.
-double numerical_error();
+/// The part of the half-width at a depth (in diameters) that stands for numerical errors of the simulated
+/// layers, in velocity efficiency: the mean of layers for which they are estimated, or from 8 diameters on
+/// that of the bounds of deeper ones; from 6 diameters on it goes from one to the other, so that it does not
+/// jump.
+double numerical_error(double depth);
 
 /// The lengths over which the error of the rolling-layer law changes, as the layers of the atlas tell:
 /// medians of the draws of its process, one for each of inputs() (tables.hpp), in widths of its range.

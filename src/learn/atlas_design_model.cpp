@@ -84,7 +84,7 @@ class AtlasSpeeds : public SpeedModel {
         bool const is_near = precision == Precision::near;
         auto const value = is_near ? atlas::near_value_at(place) : atlas::value_at(place);
         if (!value) return {};
-        double const whole = value->half_width, numerics = atlas::numerical_error();
+        double const whole = value->half_width, numerics = atlas::numerical_error(place[atlas::depth_input]);
         double const statistics = std::sqrt(whole * whole - numerics * numerics);
         Spread const& open = spread(layer, is_near);
         return ModelEfficiency{value->efficiency,

@@ -40,7 +40,8 @@ class AtlasSpeedModel {
         auto const answer = atlas::value_at(place);
         if (!answer) return {};
         double const trough_speed = drive.trough_speed();
-        double const numerics = atlas::numerical_error() / atlas::deviations_in_half_width;
+        double const numerics =
+            atlas::numerical_error(place[atlas::depth_input]) / atlas::deviations_in_half_width;
         double const whole = answer->half_width / atlas::deviations_in_half_width;
         double const statistics = whole * whole - numerics * numerics;
         double const common = common_share * statistics + numerics * numerics;

@@ -260,8 +260,8 @@ def by_region(run: ValidationCase) -> None:
         held = int(np.sum(np.abs(value["efficiency"] - value["atlas"]) <= np.hypot(value["half_width"], value["atlas_half_width"])))
         rms = [math.sqrt(float(np.mean((value["efficiency"] - value[model]) ** 2))) for model in ("atlas", "rolling_layer", "theory")]
         own = own_error(value["efficiency"] - value["atlas"], value["half_width"])
-        rows.append([region, key, low, high, len(inside), held, *(f"{one:.3f}" for one in rms), f"{own:.3f}"])
-    run.follows("regions.csv", ["region", "input", "above", "up_to", "layers", "held", "rms_atlas", "rms_rolling_layer", "rms_theory", "own_atlas"], rows)
+        rows.append([region, key, low, high, len(inside), held, *(f"{one:.3f}" for one in rms), f"{own:.3f}", f"{np.mean(value['atlas_half_width']):.3f}"])
+    run.follows("regions.csv", ["region", "input", "above", "up_to", "layers", "held", "rms_atlas", "rms_rolling_layer", "rms_theory", "own_atlas", "half_width"], rows)
 
 
 def judge_decisions(run: ValidationCase) -> dict[str, object]:
