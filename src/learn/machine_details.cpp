@@ -22,6 +22,13 @@ char const* source_of(AddedMassSource source) {
     return names.at(static_cast<std::size_t>(source));
 }
 
+/// Whether a magnet has this frequency (Hz) on the mains without a controller: half of theirs, theirs or
+/// twice.
+bool is_of_mains(double frequency) {
+    return std::ranges::any_of(std::array{25, 50, 100, 30, 60, 120},
+                               [&](double one) { return std::abs(frequency / one - 1) < 0.01; });
+}
+
 /// The exciter of a machine under its layer.
 struct ExcitedMachine {
     Exciter exciter;
@@ -211,6 +218,9 @@ std::string drive_text(DesignTask const& t, RiskDesign const& d) {
             ? "the usual limits of " + t.drive_kind->name
             : "the usual limits of unbalance motors, cranks and magnets; --drive keeps to those of one";
     if (!t.drive_kind && t.drive_kinds.empty()) return "";
+    if (usual == "magnet" && !is_of_mains(d.drive.frequency))
+        usual += fmt::format(", with a controller for {:.3g} Hz (mains of 50 Hz alone give 25, 50 or 100 Hz)",
+                             d.drive.frequency);
     return fmt::format("kind of drive     {}\n", usual.empty() ? "outside of " + others : usual);
 }
 

@@ -153,7 +153,7 @@ TheoryPoints parse_theory_points(core::TextFile const& file) {
             cells.push_back(core::with_decimal_point(table.cells()[c], table.separator()));
         }
         if (auto const problem = inputs.incomplete())
-            table.fail(fmt::format("point {}: {}", result.cells.size(), *problem), "write the value");
+            table.fail(fmt::format("point {}: {}", result.cells.size(), *problem), "");
         result.points.push_back(inputs);
     }
     return result;

@@ -7,13 +7,14 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double radian = 180 / std::numbers::pi;    // degrees
-constexpr double largest_usual_frequency = 120;      // Hz; magnets at twice the mains' 60 Hz
-constexpr double largest_usual_amplitude = 0.05;     // m
-constexpr double largest_usual_friction = 1.5;       // of the mass on the trough
-constexpr double smallest_usual_angle = 0.028;       // rad, 1.6 degrees: 90 degrees written in radians
-constexpr double smallest_usual_bulk_density = 15;   // kg/m3; foamed polystyrene has about 20
-constexpr double smallest_usual_grain_density = 30;  // kg/m3; foamed polystyrene
+constexpr double radian = 180 / std::numbers::pi;  // degrees
+constexpr double largest_usual_frequency = 120;    // Hz; magnets at twice the mains' 60 Hz
+constexpr double largest_usual_amplitude = 0.05;   // m
+constexpr double largest_usual_friction = 1.5;     // of the mass on the trough
+constexpr double smallest_usual_angle = 0.028;     // rad, 1.6 degrees: 90 degrees written in radians
+// kg/m3: from foamed polystyrene to lead shot
+constexpr double smallest_usual_bulk_density = 15, largest_usual_bulk_density = 7000;
+constexpr double smallest_usual_grain_density = 30, largest_usual_grain_density = 12000;
 
 /// Three digits, as in a sentence, and all of a whole number that has more.
 std::string in_words(double value) {
@@ -112,18 +113,20 @@ std::optional<UnusualNumber> unusual_friction(MachineNumbers const& n) {
 
 std::optional<UnusualNumber> unusual_density(UnusualQuantity quantity, std::optional<double> density) {
     bool const is_bulk = quantity == UnusualQuantity::bulk_density;
-    double const limit = is_bulk ? smallest_usual_bulk_density : smallest_usual_grain_density;
-    if (!density || *density >= limit) return {};
+    double const least = is_bulk ? smallest_usual_bulk_density : smallest_usual_grain_density;
+    double const most = is_bulk ? largest_usual_bulk_density : largest_usual_grain_density;
+    if (!density || (*density >= least && *density <= most)) return {};
+    bool const is_light = *density < least;
     double const in_tonnes = 1000 * *density;
     return UnusualNumber{quantity,
                          is_bulk ? "bulk density" : "density of the grains",
                          *density,
-                         limit,
+                         is_light ? least : most,
                          "kg/m3",
                          is_bulk ? "most layers have 100 to 3000" : "most grains have 500 to 8000",
-                         in_tonnes < limit ? ""
-                                           : "were " + in_words(*density) + " t/m3 meant (" +
-                                                 in_words(in_tonnes) + " kg/m3)?"};
+                         !is_light || in_tonnes < least ? ""
+                                                        : "were " + in_words(*density) + " t/m3 meant (" +
+                                                              in_words(in_tonnes) + " kg/m3)?"};
 }
 
 }  // namespace

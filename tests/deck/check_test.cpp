@@ -89,6 +89,10 @@ TEST(Check, NamesWhatIsUnusualAsItWasTyped) {
     Finding const bulk = finding(light, "bulk density");
     EXPECT_EQ(bulk.key, "grains.bulk_density");
     EXPECT_NE(bulk.advice.find("were 0.6 t/m3 meant (600 kg/m3)?"), std::string::npos) << bulk.advice;
+    // 600 lb/ft3, where kg/m3 were meant.
+    scenario::Scenario const heavy =
+        scenario_of(with("density = \"1400 kg/m3\"", "bulk_density = \"9611 kg/m3\""));
+    EXPECT_EQ(finding(heavy, "bulk density").severity, Severity::warning);
     // The frequency follows from the throw number, which is what can be changed.
     scenario::Scenario const fast = scenario_of(with("amplitude = \"6 mm\"", "stroke = \"4 um\""));
     EXPECT_EQ(finding(fast, "frequency").key, "trough.throw_number");

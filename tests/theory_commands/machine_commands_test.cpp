@@ -122,6 +122,10 @@ TEST(Machine, KeepsToItsKindOfDrive) {
     auto const found = answer_of(words);
     EXPECT_LE(found.at("stroke_mm"), 16 + 1e-9);
     EXPECT_GE(found.at("rpm"), 700 - 1e-9);
+    std::string const magnet =
+        "design --mass-flow '6 t/h' --width '400 mm' --material maize --drive magnet --rpm ";
+    EXPECT_THAT(run_program(magnet + "2100").text, HasSubstr("magnet, with a controller for 35 Hz"));
+    EXPECT_THAT(run_program(magnet + "3000").text, HasSubstr("kind of drive     magnet\n"));
 }
 
 // A surge makes the design's mass flow larger, and its layer in operation thinner.
