@@ -40,10 +40,9 @@ double steps_between_rebuilds(prepare::PreparedCase const& prepared, double spee
 
 /// What the cost of a case is expected from: what other cases have shown, or what was seen before.
 struct Experience {
-    /// Standard deviation of the mean efficiency of one packing of 24 cycles. In the layer of
-    /// tests/measure/reference it was 0.01 to 0.04 at throw numbers from 0.8 to 3, in validation/demo the
-    /// same.
-    double deviation = 0.03;
+    /// Standard deviation of the mean efficiency of one packing of 24 cycles: root mean square of 18 cases of
+    /// campaigns that `init` writes (throw numbers 1 to 3; 0.002 to 0.028). It is larger in smaller boxes.
+    double deviation = 0.011;
     std::optional<double> cycles{};  ///< of one packing; none: those of the first round of a campaign
 };
 

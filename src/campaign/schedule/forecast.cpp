@@ -13,9 +13,9 @@ constexpr double unknown_scatter = 0.55;
 /// The machine is never known better than this.
 constexpr double least_scatter = 0.1;
 
-/// Cycles of a case over those of its first round, in the mean of throw numbers 0.8 to 3 for +- 0.075
-/// (src/manual/confidence.md). It counts as one case, because the first results may be easy ones.
-constexpr double usual_rounds = 1.7;
+/// Cycles of a packing over those of its first round, in the mean of throw numbers 0.8 to 3 for +- 0.075
+/// (`ctest -R RealPackings -V`). It counts as one case, because the first results may be easy ones.
+constexpr double usual_rounds = 1.16;
 
 /// What the results say.
 struct Learned {
