@@ -1,6 +1,7 @@
 #include "atlas/atlas.hpp"
 
 #include "atlas/tables.hpp"
+#include "atlas/value.hpp"
 #include "core/csv.hpp"
 #include "prepare/prepared_case.hpp"
 #include "scenario/example_campaign.hpp"
@@ -236,6 +237,17 @@ TEST(Atlas, TellsWhatDepthAndSlopeChange) {
     // The difference from the point mass: without what the slope does to both.
     EXPECT_LT(std::abs(uphill.of_slope->efficiency), 0.3);
     EXPECT_FALSE(effects_of(with("height = \"12 mm\"", "height = \"69 mm\"", inside_layer)).has_value());
+}
+
+// Even by the logarithm of the depth, from the estimates of layers up to 6 diameters to the bounds from 8 on:
+// half way at sqrt(6 x 8).
+TEST(Atlas, NumericalErrorsGoFromEstimatesToBounds) {
+    auto const [shallow, deep] = read_numerical_error(layers_table, "layers.csv");
+    EXPECT_LT(shallow, 0.7 * deep)
+        << "bounds are about three times the differences (validation/whole_interval)";
+    for (double const depth : {3.0, 6.0}) EXPECT_NEAR(numerical_error(depth), shallow, 1e-12);
+    for (double const depth : {8.0, 20.0}) EXPECT_NEAR(numerical_error(depth), deep, 1e-12);
+    EXPECT_NEAR(numerical_error(std::sqrt(48)), (shallow + deep) / 2, 1e-12);
 }
 
 // Every simulated layer lies within the interval that the surface has at its own place, but for the share

@@ -213,17 +213,6 @@ TEST_F(UntilPreciseTest, FourPackingsAreEnoughOnlyWithHalfOfTheHalfWidth) {
     EXPECT_EQ(limited.outcome, core::Outcome::finished) << "where no more are allowed, four must do";
 }
 
-// Independent cycles of scatter 0.05: the mean of 24 has the deviation 0.01, and the interval of four
-// packings, 2.3 x 0.01 / 2, is not at most half of 0.02. Two packings more take 48 cycles, and twice the
-// cycles 96.
-TEST_F(UntilPreciseTest, TakesWhatNeedsFewerCycles) {
-    double cycles = 0;
-    for (unsigned seed = 1; seed <= 20; ++seed)
-        cycles += simulate_case(policy, asking(0.02), packings_of({}, seed, 0.05)).all_cycles() / 20;
-    EXPECT_GT(cycles, 4 * 24);
-    EXPECT_LT(cycles, 4 * 48);
-}
-
 TEST_F(UntilPreciseTest, EndsAsNotPreciseAtTheLimits) {
     PlannedCase const few = asking(0.02, 4, 10);
     SimulatedEnd const end = simulate_case(policy, few, packings_of({}, 3));

@@ -42,17 +42,25 @@ def changes_of(name: str) -> dict[str, Any]:
     return CHANGES | (atlas.PRECISE if name.startswith("random") and "deep" not in name else {})
 
 
-def missing(run: ValidationCase, columns: design.Columns, changes: dict[str, Any], known: set[object]) -> design.Columns:
-    """The layers whose ids are not known."""
-    ids = atlas.ids_of(run, atlas.campaign_of(run, columns, changes))
-    return {name: values[[case not in known for case in ids]] for name, values in columns.items()}
+def numbers_of(throw_number: object, depth: object) -> tuple[float, float]:
+    """What tells a layer from all others; ids differ from one version of the program to the next."""
+    return round(float(str(throw_number)), 4), round(float(str(depth)), 4)
+
+
+def layers_of(columns: design.Columns) -> list[tuple[float, float]]:
+    return [numbers_of(*pair) for pair in zip(columns["throw_number"], columns["depth"], strict=True)]
+
+
+def missing(columns: design.Columns) -> design.Columns:
+    """The layers that the table does not have."""
+    known = {numbers_of(row["throw_number"], row["depth"]) for row in read_table(FOLDER / TABLE)} if (FOLDER / TABLE).exists() else set()
+    return {name: values[[layer not in known for layer in layers_of(columns)]] for name, values in columns.items()}
 
 
 def simulate(run: ValidationCase, name: str, columns: design.Columns) -> list[list[object]]:
     """Rows of COLUMNS of the layers that are done."""
     changes = changes_of(name)
-    known = {row[1] for row in stored()}
-    todo = missing(run, columns, changes, known)
+    todo = missing(columns)
     part = {key: values[:AT_ONCE] for key, values in todo.items()}
     if not len(part["depth"]):
         return []
@@ -77,13 +85,14 @@ def landing_of(folder: pathlib.Path, row: dict[str, str]) -> list[str]:
 
 def predict(run: ValidationCase) -> None:
     """What the atlas says of the layers of the table, beyond its ranges."""
-    answers: dict[str, dict[str, Any]] = {}
+    answers: dict[tuple[float, float], dict[str, Any]] = {}
     for name, columns in design.wider_campaigns().items():
         text = atlas.campaign_of(run, columns, changes_of(name))
-        answers |= dict(zip(atlas.ids_of(run, text), run.of_file("predict", text), strict=True))
+        answers |= dict(zip(layers_of(columns), run.of_file("predict", text), strict=True))
     rows = read_table(FOLDER / TABLE)
     keys = ["campaign", "case", "outcome", "throw_number", "tan_inclination", "amplitude", "depth", "theory", "rolling_layer", "efficiency", "half_width"]
-    values = [[*(row[key] for key in keys), *(f"{answers[row['case']][key]:.4f}" for key in ("efficiency", "half_width"))] for row in rows]
+    found = [answers[numbers_of(row["throw_number"], row["depth"])] for row in rows]
+    values = [[*(row[key] for key in keys), *(f"{answer[key]:.4f}" for key in ("efficiency", "half_width"))] for row, answer in zip(rows, found, strict=True)]
     run.write_table("wider_predicted.csv", [*keys, "atlas", "atlas_half_width"], values)
 
 
