@@ -334,7 +334,7 @@ void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("settle_chunks", std::to_string(static_cast<int>(20 * fall_time / chunk_time) + 200));
     data.set("settle_drag", rounded(mean_mass / (3 * chunk_time * spheres)));
     double const settled_mass = n.domain.open ? n.mass * n.settled_weight / n.weight : n.mass;
-    data.set("settled_energy", rounded(1e-7 * settled_mass * s.trough.gravity * diameter));
+    data.set("settled_energy", rounded(height_at_rest(n) * settled_mass * s.trough.gravity));
     data.set("mass", text(n.mass));
     data.set("settled_mass", text(settled_mass));
 }

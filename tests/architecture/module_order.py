@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 
 # What campaign/execute may know of campaign/schedule.
-KNOWN_TO_EXECUTORS = ("policy", "forecast")
+KNOWN_TO_EXECUTORS = ("policy", "forecast", "machine_speed")
 
 
 def module_order(source: pathlib.Path) -> list[str]:

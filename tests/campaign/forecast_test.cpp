@@ -1,8 +1,11 @@
-#include "campaign/schedule/forecast.hpp"
-
+#include "campaign/schedule/machine_speed.hpp"
 #include "campaign_folder.hpp"
+#include "core/atomic_file.hpp"
+#include "core/temporary_folder.hpp"
 #include "deck/campaign_check.hpp"
 #include "deck/estimates.hpp"
+
+#include <cstdlib>
 
 namespace vibrotrough::campaign {
 namespace {
@@ -26,12 +29,32 @@ TEST_F(ForecastTest, SpeedIsTheWorkOfTheResultsOverTheirTime) {
     EXPECT_DOUBLE_EQ(fast.core_time, slow.core_time / 2);
 }
 
+// A campaign without results costs what the last one showed: 3e8 grain-steps in 100 s. A run
+// of a few seconds shows nothing, and a damaged note is none.
+TEST_F(ForecastTest, SpeedOfTheLastCampaignCountsUntilThereAreResults) {
+    core::TemporaryFolder const cache("cache");
+    ::setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+    CaseOverview const open{&planned, CaseStatus::open, {}, "", 0, {}};
+    EXPECT_EQ(forecast({open}).speed, deck::usual_speed);
+    EXPECT_FALSE(forecast({open}).is_of_last_campaign);
+    note_machine_speed({.driven = 3e8, .core_time = 100});
+    note_machine_speed({.driven = 3e6, .core_time = 2});
+    note_machine_speed({.driven = 9e8, .core_time = 100, .is_plain = false});
+    EXPECT_DOUBLE_EQ(forecast({open}).speed, 3e6);
+    EXPECT_TRUE(forecast({open}).is_of_last_campaign);
+    for (char const* damaged : {"", "{}", "{\"grain_steps_per_s\": -1}", "{\"grain_steps_per_s\": 1e99}"}) {
+        core::write_file_atomically(cache.path() / "vibrotrough" / "speed.json", damaged);
+        EXPECT_EQ(machine_speed().grain_steps, deck::usual_speed) << damaged;
+    }
+    ::unsetenv("XDG_CACHE_HOME");
+}
+
 // `check` and `plan` say the same of a campaign without results.
 TEST_F(ForecastTest, PlanCostsWhatCheckSays) {
     deck::CampaignCheck const check = deck::check_campaign(scenario::parse_campaign(campaign_text, "c.toml"));
     std::vector<CaseOverview> cases;
     for (PlannedCase const& one : plan.cases) cases.push_back({&one, CaseStatus::open, {}, "", 0, {}});
-    EXPECT_NEAR(forecast(cases).core_time, check.work / deck::usual_speed, 1e-9 * check.work);
+    EXPECT_NEAR(forecast(cases).core_time, check.work / machine_speed().grain_steps, 1e-9 * check.work);
 }
 
 // The progress of a run that has done a quarter of its work, at a speed and on cores of its own.

@@ -109,6 +109,28 @@ TEST(Estimates, BottomLoadIsTheColumnsWeight) {
     EXPECT_NEAR(bottom_load(prepared(steep)), 0.8 * bottom_load(prepared(s)), 1e-12);
 }
 
+// A mass m on a spring that its weight compresses by D has the stiffness m g / D. With the kinetic energy m g
+// h it goes on to press with m g (1 + sqrt(2 h / D)), which must stay within the 2 % by which a packing at
+// rest may differ from its weight: with grains of 1 GPa 1e-7 diameters would be too much. D goes with
+// E^(-2/3).
+TEST(Estimates, StifferGrainsMustRestMoreQuietly) {
+    scenario::Scenario s = scenario_of();
+    s.grains.youngs_modulus = 5e6;
+    EXPECT_DOUBLE_EQ(height_at_rest(prepared(s)), 1e-7 * mean_diameter(s));
+    double before = 0;
+    for (double const modulus : {1e9, 8e9}) {
+        s.grains.youngs_modulus = modulus;
+        prepare::PreparedCase const p = prepared(s);
+        double const compressed = p.layer_height / mean_diameter(s) * overlap_under(p, bottom_load(p) / 2);
+        EXPECT_LT(std::sqrt(2 * height_at_rest(p) / compressed), 0.015);
+        EXPECT_LT(height_at_rest(p), 0.5e-7 * mean_diameter(s));
+        if (before > 0) {
+            EXPECT_NEAR(height_at_rest(p) / before, 0.25, 0.01);
+        }
+        before = height_at_rest(p);
+    }
+}
+
 // F = 4/3 E* sqrt(R) d^(3/2), evaluated by hand with E* = 5e6 / (2 (1 - 0.35^2)) = 2.849003e6 Pa.
 TEST(Estimates, HertzOverlapCarriesTheForce) {
     double const overlap = overlap_under(prepared(scenario_of()), 1e-3);

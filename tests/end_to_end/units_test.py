@@ -103,8 +103,8 @@ class Units(EndToEndTest):
         arguments = ("plan", campaign, "--output", self.output, "--liggghts", self.engine)
         times = [round(case["core_time_s"]) for case in json.loads(self.call(*arguments, "--json").stdout)["cases"]]
         self.assertTrue(any(time % 60 >= 10 for time in times), times)
-        shown = re.findall(r" (\d+):(\d\d)$", self.call(*arguments).stdout, re.MULTILINE)
-        self.assertEqual([60 * int(minutes) + int(seconds) for minutes, seconds in shown], times)
+        shown = re.findall(r" (?:(\d+):)?(\d+):(\d\d)$", self.call(*arguments).stdout, re.MULTILINE)
+        self.assertEqual([3600 * int(hours or 0) + 60 * int(minutes) + int(seconds) for hours, minutes, seconds in shown], times)
 
     def test_swept_keys_are_in_every_view(self):
         sweep = {"grains.rolling_friction": [0.05, 0.2], "layer.width": ["15 mm", "18 mm"]}

@@ -1,5 +1,6 @@
 #include "app/commands/command.hpp"
 #include "app/engine_certificate.hpp"
+#include "campaign/schedule/machine_speed.hpp"
 #include "deck/campaign_check.hpp"
 #include "deck/estimates.hpp"
 #include "scenario/reader/swept_keys.hpp"
@@ -12,8 +13,6 @@ struct CheckArguments {
     std::string campaign_file;
     bool json = false;
 };
-
-using deck::usual_speed;
 
 Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -31,7 +30,7 @@ Json describe(deck::Finding const& finding) {
             {"advice", finding.advice}};
 }
 
-Json describe(prepare::PreparedCase const& prepared, int number, std::string const& label) {
+Json describe(prepare::PreparedCase const& prepared, int number, std::string const& label, double speed) {
     Json findings = Json::array();
     for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
     int const packings = deck::expected_packings(prepared.scenario);
@@ -54,25 +53,26 @@ Json describe(prepare::PreparedCase const& prepared, int number, std::string con
             {"expected_cycles_per_packing", deck::expected_cycles(prepared.scenario)},
             {"expected_grain_steps", work / prepared.step_cost()},
             {"relative_step_cost", prepared.step_cost()},
-            {"expected_core_hours", work / usual_speed / 3600}};
+            {"expected_core_hours", work / speed / 3600}};
 }
 
 /// Prints case by case: all findings of ten thousand cases at once would need half a gigabyte.
-void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& found) {
+void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& found,
+                campaign::MachineSpeed const& speed) {
     Json const head{{"campaign", campaign.name},
                     {"warnings", found.warnings()},
                     {"errors", found.errors()},
-                    {"grain_steps_per_cpu_second", usual_speed},
+                    {"grain_steps_per_cpu_second", speed.grain_steps},
                     {"remarks", found.remarks},
                     {"expected_bytes", found.bytes},
                     {"largest_bytes", found.largest_bytes},
                     {"engine_memory_bytes", found.engine_memory},
-                    {"expected_core_hours", found.work / usual_speed / 3600},
+                    {"expected_core_hours", found.work / speed.grain_steps / 3600},
                     {"cases", Json::array()}};
     print_with_list(head, campaign.cases.size(), [&](std::size_t i) {
         scenario::Scenario const& one = campaign.cases[i];
-        return describe(prepare::prepare_case(one), static_cast<int>(i) + 1,
-                        swept_label(one, campaign.swept));
+        return describe(prepare::prepare_case(one), static_cast<int>(i) + 1, swept_label(one, campaign.swept),
+                        speed.grain_steps);
     });
 }
 
@@ -126,7 +126,8 @@ void print_moduli(deck::CampaignCheck const& found) {
         values, cases);
 }
 
-void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& found) {
+void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& found,
+                campaign::MachineSpeed const& speed) {
     fmt::print("{:<8} {:<56} {:>10}   {}\n", "", "item (the worst of all cases)", "number", "limit");
     for (deck::CheckedItem const& item : found.items) {
         fmt::print("{:<8} {:<56} {:>10.3g}   {} {:.3g}{}\n", to_string(item.worst.severity), item.worst.item,
@@ -145,8 +146,9 @@ void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& f
                found.cases, found.cases == 1 ? "" : "s", found.packings, found.cycles / found.packings);
     fmt::print("disk: {:.2g} MB, at most {:.2g} MB; memory of one engine: {:.2g} MB\n", found.bytes / 1e6,
                found.largest_bytes / 1e6, found.engine_memory / 1e6);
-    fmt::print("expected cost: {:.2g} core-hours, at {:.2g} grain-steps per CPU second (a usual value)",
-               found.work / usual_speed / 3600, usual_speed);
+    fmt::print("expected cost: {:.2g} core-hours, at {:.2g} grain-steps per CPU second ({})",
+               found.work / speed.grain_steps / 3600, speed.grain_steps,
+               speed.is_measured ? "measured in the last campaign" : "a usual value");
     if (found.largest_step_cost > 1.05)
         fmt::print("; in the largest layer a step of a grain costs {:.2g} times as much",
                    found.largest_step_cost);
@@ -169,7 +171,8 @@ void try_meshes_if_any(std::string const& file, scenario::Campaign const& campai
 int run_check(CheckArguments const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
     deck::CampaignCheck const found = deck::check_campaign(campaign);
-    options.json ? print_json(campaign, found) : print_text(campaign, found);
+    campaign::MachineSpeed const speed = campaign::machine_speed();
+    options.json ? print_json(campaign, found, speed) : print_text(campaign, found, speed);
     try_meshes_if_any(options.campaign_file, campaign);
     return found.errors() > 0 ? wrong_input : all_well;
 }

@@ -40,7 +40,8 @@ std::string engine_version(PlanArguments const& options, fs::path const& folder)
 }
 
 std::string_view source_of(campaign::Forecast const& cost) {
-    return cost.results > 0 ? "measured in finished cases" : "assumed until the first result";
+    if (cost.results > 0) return "measured in finished cases";
+    return cost.is_of_last_campaign ? "measured in the last campaign" : "assumed until the first result";
 }
 
 /// Everything that is printed.
@@ -180,7 +181,7 @@ void add_plan(CLI::App& program, int& exit_code) {
 vibration angle beta and inclination alpha in degrees, friction coefficient mu, number of grains, packings that have ended and will probably be
 needed for the interval that measure.half_width asks for, outcome, and the core time that it still needs. Below, the
 cost of the whole campaign is estimated, with the range in which it probably lies. The estimate learns from the cases
-that have a result.
+that have a result; before the first it takes the speed that the last campaign of plain layers had.
 
 Nothing is simulated, and no file is written. Only the version of the engine is read, because the ids of the cases
 depend on it.

@@ -1,7 +1,7 @@
 #include "campaign/execute/campaign_driver.hpp"
 
 #include "campaign/execute/case_files.hpp"
-#include "campaign/schedule/forecast.hpp"
+#include "campaign/schedule/machine_speed.hpp"
 #include "campaign/state/added_cases.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/case_state.hpp"
@@ -86,6 +86,7 @@ class Driver {
         bool const may_leave = until == Until::submitted && executor_.outlives_driver();
         while (!may_leave && !executor_.is_idle()) step();
         summary_.not_taken = static_cast<int>(executor_.not_taken());
+        note_machine_speed(work_);
         summary_.interrupted = is_stopping_;
         return summary_;
     }
@@ -97,8 +98,8 @@ class Driver {
             executor_.interrupt();
         }
         if (!fs::exists(plan_.folder))
-            throw core::MissingError(
-                fmt::format("{} was renamed or removed while its campaign ran", plan_.folder.string()));
+            throw core::MissingError(plan_.folder.string() +
+                                     " was renamed or removed while its campaign ran");
         for (EndedPacking& ended : executor_.wait()) handle(ended);
         submit_orders();
         report();
@@ -248,7 +249,7 @@ class Driver {
         progress_.core_time += ended.core_time;
         work_.core_time += ended.core_time;
         if (!ended.failure) {
-            add(work_, *planned.prepared, ended.has_settled, ended.cycles);
+            work_.add(*planned.prepared, ended.has_settled, ended.cycles);
             take_in(one, ended);
             if (!one.has_ended) decide(one);
         } else if (!one.has_ended && may_retry(ended)) {
@@ -267,8 +268,8 @@ class Driver {
             return;
         }
         PlannedCase const& planned = *one.known.planned;
-        auto finished = evaluate::read_finished_cycles(*planned.prepared, planned.packing_folder(packing));
-        if (finished)
+        fs::path const folder = planned.packing_folder(packing);
+        if (auto finished = evaluate::read_finished_cycles(*planned.prepared, folder))
             one.known.packings[packing] = {std::move(finished->efficiency), finished->core_time, true};
     }
 
@@ -336,11 +337,6 @@ class Driver {
         }
     }
 
-    static void add(WorkOfRun& work, prepare::PreparedCase const& prepared, bool has_settled, int cycles) {
-        work.done += deck::work_of(prepared, has_settled ? 1 : 0, cycles);
-        work.driven += deck::work_of(prepared, 0, cycles);
-    }
-
     void report() {
         progress_.engines = executor_.running();
         progress_.running = static_cast<int>(progress_.engines.size());
@@ -348,7 +344,7 @@ class Driver {
         WorkOfRun work = work_;
         for (RunningPacking const& one : progress_.engines) {
             double const before = work.done;
-            add(work, *one.planned->prepared, one.has_settled, one.cycles);
+            work.add(*one.planned->prepared, one.has_settled, one.cycles);
             work.left -= work.done - before;
             work.core_time += one.core_time;
         }

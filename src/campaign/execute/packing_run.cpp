@@ -65,7 +65,7 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
 void PackingRun::begin() {
     // From now on the packing is seen as under way.
     core::make_folder(folder_);
-    settled_.obtain(deck_, planned_.prepared->settled_weight,
+    settled_.obtain(deck_, *planned_.prepared,
                     [this, alive = std::weak_ptr<bool>(alive_)](PackingEnd const& end, auto const& restart) {
                         if (!alive.expired()) start_on(end, restart);
                     });

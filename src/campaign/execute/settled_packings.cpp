@@ -7,6 +7,7 @@
 #include "core/hash.hpp"
 #include "core/time.hpp"
 #include "deck/deck.hpp"
+#include "deck/estimates.hpp"
 #include "engine/run_report.hpp"
 #include "engine/sole_writer.hpp"
 
@@ -24,10 +25,6 @@ namespace vibrotrough::campaign {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A layer that is called settled still trembles: its kinetic energy is below 1e-7 m g d, its force was seen
-/// within 0.4 % of its weight (20 packings of 20 to 500 grains; 2.5 % below 1e-5 m g d).
-constexpr double rest_tolerance = 0.02;
 
 constexpr char const* seal_file = "settled.json";
 
@@ -51,14 +48,14 @@ bool is_whole(fs::path const& folder, deck::Deck const& deck) {
     }
 }
 
-PackingEnd judge(fs::path const& folder, engine::ExitStatus status, double weight) {
+PackingEnd judge(fs::path const& folder, engine::ExitStatus status, double weight, double tolerance) {
     engine::RunReport const report = engine::examine_run(folder, status, engine::Stage::settling);
     if (report.failure) return {report.failure, report.message, report.signal};
     if (!has_restart(folder)) {
         return {core::Outcome::outputs_incomplete,
                 fmt::format("the engine left no {}, or an empty one; is the disk full?", deck::settled_file)};
     }
-    if (std::abs(report.settled_force - weight) > rest_tolerance * weight) {
+    if (std::abs(report.settled_force - weight) > tolerance * weight) {
         return {core::Outcome::wrong_weight,
                 fmt::format("the layer at rest presses on the trough with {:.4g} N; it weighs {:.4g} N",
                             report.settled_force, weight)};
@@ -96,7 +93,8 @@ struct SettledPackings::Settling {
     fs::path folder;
     FileLock lock;
     deck::Deck deck = {};
-    double weight = 0;
+    double weight = 0;     ///< N
+    double tolerance = 0;  ///< deck::rest_tolerance()
     std::vector<Ready> waiting = {};
     bool interrupted = false;
     std::unique_ptr<engine::EngineProcess> process = {};
@@ -112,7 +110,7 @@ SettledPackings::SettledPackings(boost::asio::io_context& context, engine::Engin
 
 SettledPackings::~SettledPackings() = default;
 
-void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready) {
+void SettledPackings::obtain(deck::Deck const& deck, prepare::PreparedCase const& prepared, Ready ready) {
     std::string const key = packing_key(deck, engine_.version);
     if (auto const found = settling_.find(key); found != settling_.end()) {
         found->second->waiting.push_back(std::move(ready));
@@ -126,7 +124,8 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
     }
     auto settling = begin(key);
     settling->deck = deck;
-    settling->weight = weight;
+    settling->weight = prepared.settled_weight;
+    settling->tolerance = deck::rest_tolerance(prepared);
     settling->waiting.push_back(std::move(ready));
     fs::remove_all(settling->folder);
     deck::write_files(deck::for_ranks(deck.settle_files, engine_.ranks), settling->folder);
@@ -181,7 +180,8 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
     PackingEnd end{core::Outcome::interrupted, "the settling was interrupted"};
     if (!settling->interrupted) require_unchanged(engine_);
     try {
-        if (!settling->interrupted) end = judge(settling->folder, status, settling->weight);
+        if (!settling->interrupted)
+            end = judge(settling->folder, status, settling->weight, settling->tolerance);
     } catch (core::DiskFullError const& error) {
         end = {core::Outcome::disk_full, error.what()};
     }

@@ -37,8 +37,8 @@ class SettledPackings {
     /// Calls `ready` once, from the context, when the packing is there: soon if it was made before, whole and
     /// undamaged, else after the engine has settled it. Asked twice for one packing, the engine runs once.
     /// @throws MissingError when the disk refuses or the engine cannot be started
-    /// @param weight  N, of the layer on the trough at rest
-    void obtain(deck::Deck const& deck, double weight, Ready ready);
+    /// @param prepared  the case of the deck
+    void obtain(deck::Deck const& deck, prepare::PreparedCase const& prepared, Ready ready);
 
     /// Removes what killed drivers left half made. For a driver that is alone in the folder.
     void remove_leftovers();

@@ -1,5 +1,6 @@
 #include "campaign/schedule/forecast.hpp"
 
+#include "campaign/schedule/machine_speed.hpp"
 #include "deck/estimates.hpp"
 
 #include <algorithm>
@@ -78,7 +79,12 @@ Forecast forecast(std::vector<CaseOverview> const& cases) {
     Learned const learned = learn(cases);
     Forecast result;
     result.results = static_cast<int>(learned.ratios.size());
-    result.speed = learned.speed > 0 ? learned.speed : deck::usual_speed;
+    result.speed = learned.speed;
+    if (result.speed <= 0) {
+        MachineSpeed const machine = machine_speed();
+        result.speed = machine.grain_steps;
+        result.is_of_last_campaign = machine.is_measured;
+    }
     int missing_cases = 0;
     for (CaseOverview const& one : cases) {
         result.packings.push_back(packings_of(one, learned));
@@ -94,6 +100,12 @@ Forecast forecast(std::vector<CaseOverview> const& cases) {
     double const of_missing = scatter / std::sqrt(missing_cases);
     result.uncertainty = std::exp(2 * std::hypot(least_scatter, of_what_is_learned, of_missing));
     return result;
+}
+
+void WorkOfRun::add(prepare::PreparedCase const& prepared, bool has_settled, int cycles) {
+    is_plain &= deck::is_plain(prepared);
+    done += deck::work_of(prepared, has_settled ? 1 : 0, cycles);
+    driven += deck::work_of(prepared, 0, cycles);
 }
 
 TimeToGo time_to_go(WorkOfRun const& work, double elapsed) {
