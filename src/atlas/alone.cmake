@@ -9,7 +9,7 @@ function(atlas_alone_sources list folder)
     set(script ${atlas_root}/src/atlas/embed_tables.cmake)
     add_custom_command(OUTPUT ${folder}/atlas_tables.cpp
         COMMAND ${CMAKE_COMMAND} -DFOLDER=${tables} -DOUTPUT=${folder}/atlas_tables.cpp -P ${script}
-        DEPENDS ${tables}/layers.csv ${tables}/draws.csv ${tables}/draws_added_mass.csv ${tables}/draws_damping.csv ${script} VERBATIM)
+        DEPENDS ${tables}/layers.csv ${tables}/draws.csv ${tables}/draws_law.csv ${tables}/draws_added_mass.csv ${tables}/draws_damping.csv ${script} VERBATIM)
     set(sources ${folder}/atlas_tables.cpp)
     foreach(source core/csv core/text inference/gaussian_process atlas/surface atlas/tables atlas/value)
         list(APPEND sources ${atlas_root}/src/${source}.cpp)

@@ -1,7 +1,8 @@
 /// Finds the surface of the atlas from its table of layers, for validation/atlas: prints the draws of its
 /// hyperparameters as CSV, and how well it predicts the layers, each from all others, on standard error.
 ///
-/// usage: fit_atlas LAYERS.csv [COLUMN], where COLUMN is added_mass or damping instead of the efficiency
+/// usage: fit_atlas LAYERS.csv [OF], where OF is added_mass or damping instead of the efficiency, or law for
+/// the error of the law over the inputs alone
 
 #include "atlas/tables.hpp"
 #include "core/atomic_file.hpp"
@@ -14,21 +15,25 @@
 int main(int argc, char** argv) {
     using namespace vibrotrough;
     try {
-        if (argc != 2 && argc != 3) throw std::runtime_error("usage: fit_atlas LAYERS.csv [COLUMN]");
+        if (argc != 2 && argc != 3) throw std::runtime_error("usage: fit_atlas LAYERS.csv [OF]");
         std::string const text = core::read_given_file(argv[1]);
-        auto const points =
-            argc == 2 ? atlas::read_layers(text, argv[1]) : atlas::read_column(text, argv[1], argv[2]);
-        // What a layer does to its trough hardly depends on some of the inputs.
-        atlas::SurfacePrior prior;
-        if (argc == 3) prior.longest.assign(atlas::inputs().size(), 50);
-        atlas::Surface const surface(atlas::inputs(), points, prior);
+        std::string const of = argc == 3 ? argv[2] : "";
+        bool const is_efficiency = of.empty() || of == "law";
+        auto const& inputs = of.empty() ? atlas::surface_inputs() : atlas::inputs();
+        auto points =
+            is_efficiency ? atlas::read_layers(text, argv[1]) : atlas::read_column(text, argv[1], of);
+        if (of.empty()) points = atlas::with_trends(points);
+        // `learn` takes the lengths of the law's error for those of other layers, and is tested with usual
+        // ones.
+        auto const prior = of == "law" ? atlas::SurfacePrior{} : atlas::prior_of_atlas(inputs);
+        atlas::Surface const surface(inputs, points, prior);
         int number = 0;
         // Every third is enough for many layers, and each costs time in every prediction.
         std::vector<inference::Hyperparameters> few;
         for (auto const& draw : surface.draws()) {
             if (number++ % 3 == 0) few.push_back(draw);
         }
-        fmt::print("{}", atlas::draws_csv(few));
+        fmt::print("{}", atlas::draws_csv(few, inputs));
         atlas::SurfaceQuality const& q = surface.quality();
         fmt::print(stderr,
                    "{} layers, Q2 {:.3f}, {} within their intervals ({} to {} expected), extra noise {:.3f} "

@@ -16,7 +16,7 @@ struct LikelyMode {
 };
 
 /// The most frequent mode among the simulated layers that are most alike: by the distance in error_lengths()
-/// (value.hpp). Of the 116 random layers within the ranges, which are none of them, 87 moved in the mode that
+/// (value.hpp). Of the 76 random layers within the ranges, which are none of them, 57 moved in the mode that
 /// is said (tests/atlas).
 LikelyMode mode_at(Place const& place);
 

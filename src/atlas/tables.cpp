@@ -3,7 +3,7 @@
 #include "core/csv.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -42,11 +42,34 @@ core::CsvFormat format() {
 
 std::vector<SurfaceInput> const& inputs() {
     static std::vector<SurfaceInput> const all{
-        {"throw_number", 0.7, 3.2},   {"tan_vibration_angle", 0.3, 1}, {"tan_inclination", -0.1, 0.1},
-        {"friction", 0.15, 0.6},      {"amplitude", 0.5, 4},           {"depth", 3, 20, true},
+        {"throw_number", 0.7, 3.2},   {"tan_vibration_angle", 0.3, 1}, {"tan_inclination", -0.18, 0.1},
+        {"friction", 0.15, 0.6},      {"amplitude", 0.1, 4, true},     {"depth", 2, 20, true},
         {"grain_friction", 0.3, 0.8}, {"rolling_friction", 0, 0.2},    {"restitution", 0.3971, 0.8081},
     };
     return all;
+}
+
+std::vector<SurfaceInput> const& surface_inputs() {
+    static std::vector<SurfaceInput> const all = [] {
+        std::vector<SurfaceInput> found = inputs();
+        found.push_back({"trend", 0, 1});
+        return found;
+    }();
+    return all;
+}
+
+SurfacePrior prior_of_atlas(std::vector<SurfaceInput> const& of) {
+    return {.longest = std::vector<double>(of.size(), 50)};
+}
+
+Place with_trend(Place place, double trend) {
+    place.push_back(trend);
+    return place;
+}
+
+std::vector<SurfacePoint> with_trends(std::vector<SurfacePoint> points) {
+    for (SurfacePoint& one : points) one.place.push_back(one.theory);
+    return points;
 }
 
 double middle_of(Input input) {
@@ -74,7 +97,7 @@ std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& 
                              : model == LayerModel::point_mass  ? theory
                                                                 : trend_of(law, theory);
         points.push_back({columns.text("case"), columns.place(), trend, columns.number("efficiency"),
-                          columns.number("half_width")});
+                          std::hypot(columns.number("half_width"), columns.number("numerical_error"))});
     }
     return points;
 }
@@ -106,37 +129,38 @@ std::vector<LayerMotion> read_motions(std::string_view text, std::string const& 
     return layers;
 }
 
-NumericalError read_numerical_error(std::string_view text, std::string const& file) {
+double read_numerical_bound(std::string_view text, std::string const& file) {
     core::CsvReader reader(text, file, format());
     Columns const columns(reader);
-    std::array<double, 2> sum{}, count{};
+    double sum = 0, count = 0;
     while (reader.next()) {
-        std::size_t const is_deep = columns.number("depth") > deepest_estimated ? 1 : 0;
-        sum.at(is_deep) += columns.number("numerical_error");
-        count.at(is_deep) += 1;
+        if (columns.number("depth") <= deepest_estimated) continue;
+        sum += columns.number("numerical_error");
+        ++count;
     }
-    auto const mean = [&](std::size_t k) { return count.at(k) > 0 ? sum.at(k) / count.at(k) : 0; };
-    return {mean(0), mean(1)};
+    return count > 0 ? sum / count : 0;
 }
 
-std::vector<inference::Hyperparameters> read_draws(std::string_view text, std::string const& file) {
+std::vector<inference::Hyperparameters> read_draws(std::string_view text, std::string const& file,
+                                                   std::vector<SurfaceInput> const& of) {
     core::CsvReader reader(text, file, format());
     Columns const columns(reader);
     std::vector<inference::Hyperparameters> draws;
     while (reader.next()) {
         inference::Hyperparameters draw{columns.number("deviation"),
-                                        Eigen::VectorXd(static_cast<Eigen::Index>(inputs().size())),
+                                        Eigen::VectorXd(static_cast<Eigen::Index>(of.size())),
                                         columns.number("extra_noise")};
         Eigen::Index k = 0;
-        for (SurfaceInput const& input : inputs()) draw.lengths(k++) = columns.number(input.key);
+        for (SurfaceInput const& input : of) draw.lengths(k++) = columns.number(input.key);
         draws.push_back(draw);
     }
     return draws;
 }
 
-std::string draws_csv(std::vector<inference::Hyperparameters> const& draws) {
+std::string draws_csv(std::vector<inference::Hyperparameters> const& draws,
+                      std::vector<SurfaceInput> const& of) {
     std::string text = "deviation,extra_noise";
-    for (SurfaceInput const& input : inputs()) text += "," + input.key;
+    for (SurfaceInput const& input : of) text += "," + input.key;
     text += '\n';
     for (inference::Hyperparameters const& draw : draws) {
         text += fmt::format("{},{}", draw.deviation, draw.extra_noise);

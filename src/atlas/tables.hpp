@@ -11,8 +11,9 @@
 
 namespace vibrotrough::atlas {
 
-extern std::string_view const layers_table;  ///< validation/atlas/layers.csv when the program was built
-extern std::string_view const draws_table;   ///< validation/atlas/draws.csv, likewise
+extern std::string_view const layers_table;     ///< validation/atlas/layers.csv when the program was built
+extern std::string_view const draws_table;      ///< validation/atlas/draws.csv, likewise
+extern std::string_view const law_draws_table;  ///< validation/atlas/draws_law.csv, likewise
 extern std::string_view const added_mass_draws_table;  ///< validation/atlas/draws_added_mass.csv, likewise
 extern std::string_view const damping_draws_table;     ///< validation/atlas/draws_damping.csv, likewise
 
@@ -32,6 +33,18 @@ enum Input : std::size_t {
 /// The inputs of the atlas, without a dimension, with the range of each. Their keys are the columns of the
 /// table of layers.
 std::vector<SurfaceInput> const& inputs();
+
+/// inputs() and the trend of the layer (trend_of), of all of which the efficiency is a surface: the law tells
+/// places where layers change quickly.
+std::vector<SurfaceInput> const& surface_inputs();
+
+/// What is taken of the atlas' surfaces: layers hardly depend on some of the inputs, so that lengths may be
+/// long.
+SurfacePrior prior_of_atlas(std::vector<SurfaceInput> const& of);
+
+/// A place as surface_inputs() have it.
+Place with_trend(Place place, double trend);
+std::vector<SurfacePoint> with_trends(std::vector<SurfacePoint> points);
 
 /// The middle of an input's range (of its logarithm where it is scaled so), which stands for an input that is
 /// not known.
@@ -55,9 +68,13 @@ enum class LayerModel {
     point_mass,
 };
 
+/// Depth in diameters up to which numerical errors are estimated (validation/numerics); for deeper layers
+/// there are only bounds of them.
+inline constexpr double deepest_estimated = 8;
+
 /// Reads a table of layers: CSV with the columns `case`, those of inputs(), theory, rolling_layer,
 /// efficiency, half_width, numerical_error, and others that are not read. Lines that begin with # are
-/// comments.
+/// comments. The half-width of a point is that of statistics and numerical errors together.
 /// @throws core::CsvError that names line and column
 std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& file,
                                       LayerModel model = LayerModel::atlas);
@@ -79,24 +96,23 @@ struct LayerMotion {
 /// @throws core::CsvError that names line and column
 std::vector<LayerMotion> read_motions(std::string_view text, std::string const& file);
 
-/// The mean of the layers' numerical errors (95 %), in velocity efficiency: soft grains, a small box, the
-/// time step. More layers do not make it smaller.
-struct NumericalError {
-    double shallow;  ///< of layers up to deepest_estimated
-    double deep;     ///< of deeper ones
-};
-/// Depth in diameters up to which numerical errors are estimated (validation/numerics); for deeper layers
-/// there are only bounds of them.
-inline constexpr double deepest_estimated = 8;
+/// What numerical errors (soft grains, a small box, the time step) all layers up to deepest_estimated may
+/// have in common, in velocity efficiency, 95 %: of validation/numerics/model.csv Student's quantile times
+/// the root of m^2 and the squared standard error of m, at throw numbers 1.75 to 2.65, where it is largest.
+/// More layers do not make it smaller. The rest differs from layer to layer, and is part of their noise.
+inline constexpr double common_numerical_error = 0.016;
 
-/// Reads the column numerical_error. @throws core::CsvError that names line and column
-NumericalError read_numerical_error(std::string_view text, std::string const& file);
+/// The mean of the bounds of the numerical errors of deeper layers, in velocity efficiency.
+/// @throws core::CsvError that names line and column
+double read_numerical_bound(std::string_view text, std::string const& file);
 
 /// Reads draws of the hyperparameters of a surface: CSV with the columns deviation, extra_noise, and the
-/// length of each of inputs(). @throws core::CsvError that names line and column
-std::vector<inference::Hyperparameters> read_draws(std::string_view text, std::string const& file);
+/// length of each input. @throws core::CsvError that names line and column
+std::vector<inference::Hyperparameters> read_draws(std::string_view text, std::string const& file,
+                                                   std::vector<SurfaceInput> const& of = inputs());
 
 /// The draws as read_draws() reads them, with all digits.
-std::string draws_csv(std::vector<inference::Hyperparameters> const& draws);
+std::string draws_csv(std::vector<inference::Hyperparameters> const& draws,
+                      std::vector<SurfaceInput> const& of = inputs());
 
 }  // namespace vibrotrough::atlas

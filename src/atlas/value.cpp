@@ -15,10 +15,15 @@ namespace vibrotrough::atlas {
 namespace {
 
 Surface const& surface() {
-    static Surface const fitted(inputs(), read_layers(layers_table, "layers.csv"),
-                                read_draws(draws_table, "draws.csv"));
+    static Surface const fitted(surface_inputs(), with_trends(read_layers(layers_table, "layers.csv")),
+                                read_draws(draws_table, "draws.csv", surface_inputs()));
     return fitted;
 }
+
+/// Layers have a friction of so much more than their slope: others slide down ever faster.
+constexpr double least_grip = 0.03;
+/// Layers that are deeper than this, in diameters, have slopes and amplitudes of a narrower range.
+constexpr double deepest_of_wider = 6, steepest_of_deep = 0.1, smallest_of_deep = 0.5;
 
 /// The trend of the atlas, as trend_at() gives it.
 std::optional<double> solved_trend(theory::PointMass const& point, double rolling_friction) {
@@ -77,6 +82,19 @@ std::optional<std::string> why_too_narrow(double width) {
     return fmt::format("side walls {:.3g} diameters apart (at least {:g})", width, least);
 }
 
+std::vector<Outside> outside_together(Place const& place) {
+    std::vector<Outside> all;
+    auto const narrow = [&](Input input, double low, double high) {
+        if (place[input] < low || place[input] > high)
+            all.push_back({inputs()[input].key, range_text(inputs()[input].key, place[input], low, high)});
+    };
+    double const slope = std::abs(place[tan_inclination_input]);
+    narrow(friction_input, slope + least_grip, inputs()[friction_input].high);
+    if (slope > steepest_of_deep || place[amplitude_input] < smallest_of_deep)
+        narrow(depth_input, inputs()[depth_input].low, deepest_of_wider);
+    return all;
+}
+
 std::vector<Outside> outside_ranges(Place const& place) {
     constexpr double rounding = 1e-9;  // of the width of a range
     std::vector<Outside> all;
@@ -86,6 +104,7 @@ std::vector<Outside> outside_ranges(Place const& place) {
         if (place[k] < input.low - room || place[k] > input.high + room)
             all.push_back({input.key, range_text(input.key, place[k], input.low, input.high)});
     }
+    if (all.empty()) all = outside_together(place);
     return all;
 }
 
@@ -108,14 +127,14 @@ int simulated_layers() {
 }
 
 double numerical_error(double depth) {
-    static NumericalError const mean = read_numerical_error(layers_table, "layers.csv");
+    static double const bound = read_numerical_bound(layers_table, "layers.csv");
     constexpr double from = 6;
     double const share = std::clamp(std::log(depth / from) / std::log(deepest_estimated / from), 0., 1.);
-    return std::lerp(mean.shallow, mean.deep, share);
+    return std::lerp(common_numerical_error, bound, share);
 }
 
 std::vector<double> error_lengths() {
-    auto const draws = surface().draws();
+    auto const draws = read_draws(law_draws_table, "draws_law.csv");
     std::vector<double> lengths;
     for (std::size_t k = 0; k < inputs().size(); ++k) {
         std::vector<double> all;
@@ -140,25 +159,26 @@ double distance_between(Place const& one, Place const& other) {
 std::optional<double> efficiency_at(Place const& place) {
     auto const trend = trend_at(place);
     if (!trend) return {};
-    return surface().efficiency_at(place, *trend);
+    return surface().efficiency_at(with_trend(place, *trend), *trend);
 }
 
 std::optional<double> near_efficiency_at(Place const& place) {
     auto const trend = trend_at(place);
     if (!trend) return {};
-    return surface().near_efficiency_at(place, *trend);
+    return surface().near_efficiency_at(with_trend(place, *trend), *trend);
 }
 
 std::optional<SurfaceValue> difference_between(Place const& place, Place const& other) {
     auto const trend = trend_at(place), trend_there = trend_at(other);
     if (!trend || !trend_there) return {};
-    return surface().difference(place, *trend, other, *trend_there);
+    return surface().difference(with_trend(place, *trend), *trend, with_trend(other, *trend_there),
+                                *trend_there);
 }
 
 std::optional<SurfaceValue> value_at(Place const& place) {
     auto const trend = trend_at(place);
     if (!trend) return {};
-    return with_scatter(surface().at(place, *trend), place);
+    return with_scatter(surface().at(with_trend(place, *trend), *trend), place);
 }
 
 std::optional<SurfaceValue> value_of(KnownNumbers const& numbers) {
@@ -175,7 +195,7 @@ std::optional<SurfaceValue> value_of(KnownNumbers const& numbers) {
 std::optional<SurfaceValue> near_value_at(Place const& place) {
     auto const trend = trend_at(place);
     if (!trend) return {};
-    return with_scatter(surface().nearly_at(place, *trend), place);
+    return with_scatter(surface().nearly_at(with_trend(place, *trend), *trend), place);
 }
 
 }  // namespace vibrotrough::atlas

@@ -26,14 +26,14 @@ inline constexpr double farthest = 0.25;
 /// How many layers were simulated for the atlas.
 int simulated_layers();
 
-/// The part of the half-width at a depth (in diameters) that stands for numerical errors of the simulated
-/// layers, in velocity efficiency: the mean of layers for which they are estimated, or from 8 diameters on
-/// that of the bounds of deeper ones; from 6 diameters on it goes from one to the other, so that it does not
-/// jump.
+/// The part of the half-width at a depth (in diameters) that stands for numerical errors which the simulated
+/// layers have in common, in velocity efficiency: common_numerical_error, or from 8 diameters on the mean of
+/// the bounds of deeper layers; from 6 diameters on it goes from one to the other, so that it does not jump.
 double numerical_error(double depth);
 
 /// The lengths over which the error of the rolling-layer law changes, as the layers of the atlas tell:
-/// medians of the draws of its process, one for each of inputs() (tables.hpp), in widths of its range.
+/// medians of the draws of a process that knows the law as its trend alone, one for each of inputs()
+/// (tables.hpp), in widths of its range.
 std::vector<double> error_lengths();
 
 /// How far two places are apart, in the lengths over which the error of the law changes.
@@ -61,8 +61,12 @@ std::optional<double> near_efficiency_at(Place const& place);
 /// surface alone: numerical errors are common to both places, and a trend does not scatter as layers do.
 std::optional<SurfaceValue> difference_between(Place const& place, Place const& other);
 
-/// The numbers of a place that lie outside of the ranges of the atlas.
+/// What of a place the atlas does not cover: numbers outside of its ranges or, where all lie inside, those
+/// that no layer of it has together.
 std::vector<Outside> outside_ranges(Place const& place);
+
+/// The second of these alone: numbers that no layer of the atlas has together, with the range at the others.
+std::vector<Outside> outside_together(Place const& place);
 
 /// Whether a place lies so far outside of a range, more than a quarter of it, that the atlas says nothing.
 bool is_far_outside(Place const& place);

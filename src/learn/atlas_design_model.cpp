@@ -109,6 +109,10 @@ class AtlasSpeeds : public SpeedModel {
                 fmt::format("the simulated layers of the atlas have {} of {:g} to {:g}, and not {:.3g}", name,
                             range_of(input).low, range_of(input).high, place[input]);
         }
+        if (!found.why_not && depth)
+            if (auto const all = atlas::outside_together(place); !all.empty())
+                found.why_not =
+                    "the atlas has no simulated layer with this slope and amplitude: " + all.front().why;
         return found;
     }
 

@@ -114,7 +114,7 @@ inline constexpr double least_friction_without_rolling = 0.5;
 DesignModel point_mass_design_model(std::optional<double> discrepancy = {});
 
 /// The law of rolling layers, where it has been tested. The grains' rolling friction is added to its dry
-/// torque, which holds for layers in 175 of 187 cases within 1.96 of the errors of validation/model_errors
+/// torque, which holds for layers in 194 of 207 cases within 1.96 of the errors of validation/model_errors
 /// (validation/atlas, rolling friction of 0.03 to 0.2). What is not known of it is one of the sources.
 /// @param rolling_friction  of the grains, >= 0; nothing: unknown_rolling_friction()
 /// @param discrepancy       nothing: as validation/model_errors says

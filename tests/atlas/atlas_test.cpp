@@ -12,8 +12,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
 #include <stdexcept>
 
+#include <boost/math/distributions/students_t.hpp>
 #include <gtest/gtest.h>
 
 namespace vibrotrough::atlas {
@@ -58,6 +62,24 @@ TEST(Atlas, NamesWhatLiesOutside) {
         Names{"trough.restitution"});
     EXPECT_TRUE(
         answer_of(with("throw_number = 2.0", "throw_number = 3.5", inside_layer)).efficiency.has_value());
+}
+
+// Each number lies in its range, but no layer was simulated that has them together: with 0.02 more friction
+// than slope, and 12 diameters deep on a steep slope or with a small amplitude.
+TEST(Atlas, NamesWhatItHasNoLayersOfTogether) {
+    Place const inside{2, 0.5, 0.1, 0.3, 0.5, 12, 0.5, 0.1, 0.5};
+    EXPECT_TRUE(outside_ranges(inside).empty());
+    auto const outside = [&](Input input, double value, Place place) {
+        place[input] = value;
+        auto const all = outside_ranges(place);
+        return all.size() == 1 ? all.front().why : std::string();
+    };
+    Place downhill = inside;
+    downhill[tan_inclination_input] = -0.13;
+    downhill[depth_input] = 5;
+    EXPECT_EQ(outside(friction_input, 0.155, downhill), "friction 0.155 (the atlas has 0.16 to 0.6)");
+    EXPECT_EQ(outside(tan_inclination_input, -0.11, inside), "depth 12 (the atlas has 2 to 6)");
+    EXPECT_EQ(outside(amplitude_input, 0.4, inside), "depth 12 (the atlas has 2 to 6)");
 }
 
 TEST(Atlas, DoesNotPredictLayersOfAnotherKind) {
@@ -107,7 +129,7 @@ TEST(Atlas, TheFeedMakesTheDepth) {
 // thrown uphill the layer is slower where it is deeper; at the second drive it hardly is.
 TEST(Atlas, AnErrorOfTheSpeedChangesTheDepthOfAFedLayer) {
     for (auto const& [throw_number, up, friction, tons, least] :
-         {std::tuple{"1.18", "0.053", "0.547", 0.158, 1.2}, std::tuple{"2.0", "0.09", "0.23", 0.25, 1.0}}) {
+         {std::tuple{"1.18", "0.053", "0.547", 0.1, 1.15}, std::tuple{"2.0", "0.09", "0.23", 0.25, 1.0}}) {
         std::string const drive =
             with("throw_number = 2.0", std::string("throw_number = ") + throw_number,
                  with("inclination = \"0 deg\"", std::string("tan_inclination = ") + up, inside_layer));
@@ -162,9 +184,10 @@ TEST(Atlas, DependsOnNumbersWithoutDimension) {
 }
 
 TEST(Atlas, TablesAreReadBack) {
-    auto const draws = read_draws(draws_table, "draws.csv");
+    auto const& of = surface_inputs();
+    auto const draws = read_draws(draws_table, "draws.csv", of);
     ASSERT_FALSE(draws.empty());
-    EXPECT_EQ(draws_csv(read_draws(draws_csv(draws), "again")), draws_csv(draws));
+    EXPECT_EQ(draws_csv(read_draws(draws_csv(draws, of), "again", of), of), draws_csv(draws, of));
     EXPECT_EQ(static_cast<int>(read_layers(layers_table, "layers.csv").size()), simulated_layers());
     EXPECT_THROW(read_layers("case,throw_number\na,1\n", "layers.csv"), core::CsvError);
     EXPECT_THROW(read_draws("deviation\nx\n", "draws.csv"), core::CsvError);
@@ -185,8 +208,8 @@ TEST(Atlas, TheStoredTrendIsThatOfTheProgram) {
 }
 
 // validation/atlas/design.py has the same ranges: its layers lie within those of the program and fill them.
-// The sequence comes back to five values of the friction between grains, 0.35 to 0.75, so that four fifths
-// are asked.
+// The first sequence comes back to five values of the friction between grains, 0.35 to 0.75, so that four
+// fifths are asked. What the program says of where it has no layers holds for all of them.
 TEST(Atlas, TheLayersFillTheRanges) {
     auto const points = read_layers(layers_table, "layers.csv");
     for (std::size_t k = 0; k < inputs().size(); ++k) {
@@ -197,16 +220,21 @@ TEST(Atlas, TheLayersFillTheRanges) {
         }
         double const width = inputs()[k].high - inputs()[k].low;
         EXPECT_GE(low, inputs()[k].low) << inputs()[k].key;
-        EXPECT_LE(high, inputs()[k].high) << inputs()[k].key;
+        // Layers that climb more steeply are too few to be promised.
+        EXPECT_LE(high, k == tan_inclination_input ? 0.18 : inputs()[k].high) << inputs()[k].key;
         EXPECT_GT(high - low, 0.8 * width) << inputs()[k].key;
+    }
+    for (SurfacePoint const& one : points) {
+        bool const climbs_steeply = one.place[tan_inclination_input] > inputs()[tan_inclination_input].high;
+        EXPECT_EQ(outside_ranges(one.place).empty(), !climbs_steeply) << one.case_id;
     }
 }
 
-// What is not known is in the middle of its range, of its logarithm for the depth: sqrt(3 * 20).
+// What is not known is in the middle of its range, of its logarithm for the depth: sqrt(2 * 20).
 TEST(Atlas, WhatIsNotKnownIsInTheMiddle) {
     KnownNumbers numbers{2, 0.5, 0, 0.3, 2, {}, 0.55, {}, 0.6026};
     Place const place = place_of(numbers);
-    EXPECT_NEAR(place[depth_input], std::sqrt(60), 1e-12);
+    EXPECT_NEAR(place[depth_input], std::sqrt(40), 1e-12);
     EXPECT_NEAR(place[rolling_friction_input], 0.1, 1e-12);
     EXPECT_EQ(place[friction_input], 0.3);
 }
@@ -239,12 +267,34 @@ TEST(Atlas, TellsWhatDepthAndSlopeChange) {
     EXPECT_FALSE(effects_of(with("height = \"12 mm\"", "height = \"69 mm\"", inside_layer)).has_value());
 }
 
+// What all layers have in common of an error is m x, where m is known with t sigma (mean_half_width) and not
+// corrected: the root of (t m)^2 + (t sigma)^2, times x, which is s^2, d^2 / (L W) and the step over
+// Rayleigh's time at the ordinary settings. Largest at throw numbers 1.75 to 2.65. Tolerance: two digits.
+TEST(Atlas, CommonNumericalErrorIsThatOfTheStudy) {
+    std::map<std::string, double> common;
+    std::ifstream file(VALIDATION_FOLDER "/numerics/model.csv");
+    std::string const text(std::istreambuf_iterator<char>(file), {});
+    core::CsvReader reader(text, "model.csv", {.comments = true});
+    auto const column = [&](std::string const& name) {
+        auto const& all = reader.columns();
+        return static_cast<std::size_t>(std::ranges::find(all, name) - all.begin());
+    };
+    std::map<std::string, double> const x{{"softness", 0.079 * 0.079}, {"box", 1 / 40.0}, {"step", 0.2}};
+    while (reader.next()) {
+        std::string const error(reader.cells()[column("error")]);
+        boost::math::students_t const t(reader.number(column("layers")) - 1);
+        double const mean = boost::math::quantile(t, 0.975) * reader.number(column("mean"));
+        common[error] =
+            std::max(common[error], std::hypot(mean, reader.number(column("mean_half_width"))) * x.at(error));
+    }
+    EXPECT_NEAR(common_numerical_error, std::hypot(common["softness"], common["box"], common["step"]), 5e-4);
+}
+
 // Even by the logarithm of the depth, from the estimates of layers up to 6 diameters to the bounds from 8 on:
 // half way at sqrt(6 x 8).
 TEST(Atlas, NumericalErrorsGoFromEstimatesToBounds) {
-    auto const [shallow, deep] = read_numerical_error(layers_table, "layers.csv");
-    EXPECT_LT(shallow, 0.7 * deep)
-        << "bounds are about three times the differences (validation/whole_interval)";
+    double const shallow = common_numerical_error, deep = read_numerical_bound(layers_table, "layers.csv");
+    EXPECT_GT(deep, 0.03) << "bounds are about three times the differences (validation/whole_interval)";
     for (double const depth : {3.0, 6.0}) EXPECT_NEAR(numerical_error(depth), shallow, 1e-12);
     for (double const depth : {8.0, 20.0}) EXPECT_NEAR(numerical_error(depth), deep, 1e-12);
     EXPECT_NEAR(numerical_error(std::sqrt(48)), (shallow + deep) / 2, 1e-12);
@@ -254,7 +304,8 @@ TEST(Atlas, NumericalErrorsGoFromEstimatesToBounds) {
 // that 95 % intervals leave out: the tables belong to each other.
 TEST(Atlas, TheDrawsBelongToTheLayers) {
     auto const points = read_layers(layers_table, "layers.csv");
-    Surface const surface(inputs(), points, read_draws(draws_table, "draws.csv"));
+    Surface const surface(surface_inputs(), with_trends(points),
+                          read_draws(draws_table, "draws.csv", surface_inputs()));
     EXPECT_GE(surface.quality().covered, surface.quality().least_covered);
     EXPECT_GT(surface.quality().q2, 0.8);
 }

@@ -64,7 +64,7 @@ TEST(AtlasDesignModel, KnowsWhereItEnds) {
     theory::DriveSpace space;
     theory::Range depth{0, 1};
     model.speeds->narrow(space, depth);
-    EXPECT_EQ(depth.low, 3 * grain_diameter);
+    EXPECT_EQ(depth.low, 2 * grain_diameter);
     EXPECT_EQ(depth.high, 20 * grain_diameter);
     EXPECT_NEAR(space.amplitude.high, 4 * grain_diameter, 1e-12);
     EXPECT_NEAR(std::tan(space.vibration_angle.low), 0.3, 1e-12);
@@ -74,14 +74,14 @@ TEST(AtlasDesignModel, KnowsWhereItEnds) {
     fast.frequency *= 2;
     EXPECT_GT(model.excess(fast), 0);
     EXPECT_FALSE(model.untested(middle(), 0.3, 4.5));
-    EXPECT_NE(model.untested(middle(), 0.3, 24.0)->find("diameters of a grain of 3 to 20, and not 24"),
+    EXPECT_NE(model.untested(middle(), 0.3, 24.0)->find("diameters of a grain of 2 to 20, and not 24"),
               std::string::npos);
     EXPECT_NE(model.untested(middle(), 0.05, 4.5)->find("frictions of 0.15 to 0.6, and not 0.05"),
               std::string::npos);
-    // Grains of 50 mm on a machine with a stroke of at most 30 mm: half of the smallest amplitude is not
+    // Grains of 250 mm on a machine with a stroke of at most 30 mm: half of the smallest amplitude is not
     // reached.
     space = {};
-    EXPECT_THROW(atlas_design_model({0.05, {}}).speeds->narrow(space, depth), std::invalid_argument);
+    EXPECT_THROW(atlas_design_model({0.25, {}}).speeds->narrow(space, depth), std::invalid_argument);
 }
 
 // A task within the atlas: 1.5 t/h of 3 mm grains on 200 mm, in a layer of 9 to 18 mm. What is said of the

@@ -99,7 +99,7 @@ TEST(AtlasSpeedModel, RefusesWhatTheAtlasDoesNotHave) {
     deep["depth"] = 24;
     EXPECT_THAT(
         [&] { atlas_speed_model(diameter, {"friction"}, deep, speeds); },
-        testing::ThrowsMessage<core::InputError>(testing::HasSubstr("depth=24: the atlas has 3 to 20")));
+        testing::ThrowsMessage<core::InputError>(testing::HasSubstr("depth=24: the atlas has 2 to 20")));
     speeds[1].amplitude = 10 * diameter;
     EXPECT_THAT([&] { atlas_speed_model(diameter, {"friction"}, known_layer(), speeds); },
                 testing::ThrowsMessage<core::InputError>(

@@ -92,10 +92,10 @@ TEST(ModelErrors, OfTheLawHoldForGrainsThatRollAgainstFriction) {
             level_held += is_level && is_held ? 1 : 0;
         }
     }
-    EXPECT_EQ(known, 187);
-    EXPECT_EQ(held, 175);
-    EXPECT_EQ(level, 21);
-    EXPECT_EQ(level_held, 15);
+    EXPECT_EQ(known, 207);
+    EXPECT_EQ(held, 194);
+    EXPECT_EQ(level, 22);
+    EXPECT_EQ(level_held, 16);
 }
 
 // The rolling friction that nobody knows is anything that the layers of the atlas have.

@@ -90,7 +90,7 @@ TEST_F(TheoryCalibrate, WrongInputsAreRefusedInOneLine) {
           Case{file + "friction --model atlas", "--grain-diameter \"3 mm\""},
           Case{file + "friction --grain-diameter '3 mm'", "belongs to --model atlas"},
           Case{file + "friction --model atlas --grain-diameter '3 mm' --fix depth=24",
-               "the atlas has 3 to 20"},
+               "the atlas has 2 to 20"},
           Case{file + "friction --model atlas --grain-diameter '0.1 mm'", "outside of the atlas"},
           Case{"theory calibrate /nowhere.csv --free friction", "/nowhere.csv"},
           Case{"theory calibrate '" + write("rpm,speed_m_per_s\n1,2\n", "other.csv") + "' --free friction",

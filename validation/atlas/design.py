@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-# Inputs without a dimension and their ranges: those of src/atlas/tables.cpp, as a test of the atlas makes sure.
+# Inputs without a dimension and the ranges of the first layers.
 RANGES = {
     "throw_number": (0.7, 3.2), "tan_vibration_angle": (0.3, 1.0), "tan_inclination": (-0.1, 0.1), "friction": (0.15, 0.6),
     "amplitude": (0.5, 4.0), "depth": (3.0, 20.0), "grain_friction": (0.3, 0.8), "rolling_friction": (0.0, 0.2), "restitution": (0.3971, 0.8081),
@@ -25,7 +25,8 @@ DEEP: Part = {"depth": (6.0, 20.0)}
 RECURRENCE = 5
 SEQUENCES: list[tuple[int, Part, int]] = [(4, SHALLOW, SEED), (2, UPHILL, SEED + 1), (4, USUAL, SEED + 3), (2, DEEP, SEED + 2)]  # campaigns, part, seed
 
-# The wider domain, where plants are; it takes the place of RANGES when the surface is fitted anew. Amplitudes are drawn evenly by their logarithm.
+# The wider domain, where plants are: the ranges of src/atlas/tables.cpp, but for layers that climb more than 0.1, of which too few are
+# simulated. Amplitudes are drawn evenly by their logarithm.
 WIDER = {**RANGES, "tan_inclination": (-0.18, 0.18), "amplitude": (0.1, 4.0), "depth": (2.0, 20.0)}
 LEAST_GRIP = 0.03  # friction less |tan(inclination)|: without grip a layer slides down ever faster, and has no mean speed
 WIDER_SEED = 20261128

@@ -16,6 +16,8 @@ import scipy.stats  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 
 import design  # noqa: E402
+import feeders  # noqa: E402
+import other_layers  # noqa: E402
 from vibrotrough.figures import style  # noqa: E402
 from campaign_program import campaign_text, run_campaign, toml_value  # noqa: E402
 from validation_case import ValidationCase, read_table  # noqa: E402
@@ -23,12 +25,16 @@ from validation_case import ValidationCase, read_table  # noqa: E402
 HELD_OUT = {"h0": 15, "h1": 15, "h2": 10, "h3": 16, "h4": 16, "h5": 14, "h6": 14}  # campaigns of random layers, and how many each has
 DEEP_HELD_OUT = {"deep0": 16}  # the same of deep ones, which are as precise as the atlas' own
 MOST = {"level": 0.03, "shallow": 0.04, "deep": 0.04}  # error of a region
-SEEN = 56  # the first of them were known when the surface was chosen (trend, uphill campaigns, draws); the others judge
+SEEN = 56  # the first of them were known when the surface was chosen (trend, uphill campaigns, draws); it rests on them, and the others judge
+FIRST_WIDER = sum((*HELD_OUT.values(), *DEEP_HELD_OUT.values()))  # number of the first random layer of the wider domain
+STEEPEST = 0.1  # tan(alpha) up to which the atlas goes: too few layers that climb more were simulated, and they are judged apart
 # Parts of the domain: what is judged for each, and which layers lie in it.
 REGIONS: dict[str, tuple[str, float, float]] = {
     "no throw": ("throw_number", 0, 1), "near take-off": ("throw_number", 1, 1.2), "thrown": ("throw_number", 1.2, 2.42),
     "thrown far": ("throw_number", 2.42, 4), "downhill": ("tan_inclination", -1, -0.02), "level": ("tan_inclination", -0.02, 0.02),
     "uphill": ("tan_inclination", 0.02, 1), "shallow": ("depth", 0, 6), "deep": ("depth", 6, 20),
+    "first domain": ("number", -1, FIRST_WIDER - 1), "wider domain": ("number", FIRST_WIDER - 1, 10_000),
+    "steep climb": ("tan_inclination", STEEPEST, 1),
 }  # fmt: skip
 DRY_TORQUE = 0.02  # of the rolling-layer law, to which rolling friction adds
 # What a layer does to its trough: the part of its mass that moves along, its damping over mass times omega (the first campaigns have
@@ -39,8 +45,6 @@ COLUMNS = ["case", *design.RANGES, "theory", "rolling_layer", "efficiency", "hal
 PREDICTED_LOAD = ["number", "throw_number", *(f"{source}{name}{end}" for name in LOADS for source in ("", "atlas_") for end in ("", "_half_width"))]
 MAKERS = (0.10, 0.25)  # of the material's mass move with the trough (NetterVibration)
 PREDICTED = ["number", "case", "throw_number", "tan_inclination", "depth", "efficiency", "half_width", "numerical_error", "theory", "rolling_layer", "atlas", "atlas_half_width"]
-DEEP_LAYERS = ["grains", "depth", "throw_number", "efficiency", "half_width", "atlas", "atlas_half_width"]
-DECISIONS = ["domain", "throw_number", "efficiency", "half_width", "theory", "atlas", "atlas_half_width"]
 # Layers that are the same without dimensions: what differs between them. The modulus goes with density, gravity and diameter.
 SAME: dict[str, dict[str, Any]] = {
     "plain": {"grains.youngs_modulus": "4 MPa"},
@@ -121,18 +125,45 @@ def is_known(row: list[object]) -> bool:
 
 
 def simulate(run: ValidationCase) -> None:
-    rows = [row for number, points in enumerate(design.own_campaigns()) for row in layers_at(run, f"p{number}", points, {})]
-    run.write_table("layers.csv", COLUMNS, [row for row in rows if is_known(row)])
-    run.write_table("apart.csv", COLUMNS, [row for row in rows if not is_known(row)])
-    held_out = [row for name, points, changes in random_layers() for row in layers_at(run, name, points, changes)]
-    numbered = [[number, *row] for number, row in enumerate(held_out) if is_known(row)]
-    run.write_table("held_out.csv", ["number", *COLUMNS], numbered)
+    own = [row for number, points in enumerate(design.own_campaigns()) for row in layers_at(run, f"p{number}", points, {})]
+    random = [row for name, points, changes in random_layers() for row in layers_at(run, name, points, changes)]
+    write_layers(run, own + random[:SEEN], [(number, row) for number, row in enumerate(random) if number >= SEEN])
     same = [
         [name, row["throw_number"], row["efficiency"], row["efficiency_half_width_statistics"]]
         for name, changes in SAME.items()
         for row in run.campaign(f"same-{name}", changes, {"trough.throw_number": [1.2, 1.8, 2.6]})
     ]
     run.write_table("same.csv", ["layer", "throw_number", "efficiency", "half_width"], same)
+
+
+def write_layers(run: ValidationCase, own: list[list[object]], random: list[tuple[int, list[object]]]) -> None:
+    """Writes the layers on which the surface rests, those without a mean speed, and those that judge, with what wider.py has simulated."""
+    own = own + [row for _, row in wider_rows(is_random=False)]
+    run.write_table("layers.csv", COLUMNS, [row for row in own if is_known(row)])
+    run.write_table("apart.csv", COLUMNS, [row for row in own if not is_known(row)])
+    random = random + wider_rows(is_random=True)
+    run.write_table("held_out.csv", ["number", *COLUMNS], [[number, *row] for number, row in random if is_known(row)])
+
+
+def wider_rows(is_random: bool) -> list[tuple[int, list[object]]]:
+    """The simulated layers of the wider domain, as COLUMNS, with the numbers of the random ones in the order of their design."""
+    order = [layer for _, columns in wider_random() for layer in layers_of(columns)]
+    rows = [row for row in read_table(FOLDER / "wider.csv") if row["campaign"].startswith("random") == is_random]
+    number = {layer: FIRST_WIDER + k for k, layer in enumerate(order)}
+    return [(number.get(numbers_of(row["throw_number"], row["depth"]), -1), [row[column] for column in COLUMNS]) for row in rows]
+
+
+def wider_random() -> list[tuple[str, design.Columns]]:
+    return [(name, columns) for name, columns in design.wider_campaigns().items() if name.startswith("random")]
+
+
+def numbers_of(throw_number: object, depth: object) -> tuple[float, float]:
+    """What tells a layer from all others; ids differ from one version of the program to the next."""
+    return round(float(str(throw_number)), 4), round(float(str(depth)), 4)
+
+
+def layers_of(columns: design.Columns) -> list[tuple[float, float]]:
+    return [numbers_of(*pair) for pair in zip(columns["throw_number"], columns["depth"], strict=True)]
 
 
 def random_layers() -> list[tuple[str, Floats, dict[str, Any]]]:
@@ -149,7 +180,8 @@ def random_layers() -> list[tuple[str, Floats, dict[str, Any]]]:
 
 def predict_random(run: ValidationCase) -> list[dict[str, Any]]:
     """What the program predicts of each of the random layers, in the order of their numbers."""
-    return [answer for _, points, changes in random_layers() for answer in run.of_file("predict", campaign_at(run, points, changes))]
+    texts = [campaign_at(run, points, changes) for _, points, changes in random_layers()] + [campaign_of(run, columns, {}) for _, columns in wider_random()]
+    return [answer for text in texts for answer in run.of_file("predict", text)]
 
 
 def predict(run: ValidationCase) -> list[list[object]]:
@@ -158,6 +190,8 @@ def predict(run: ValidationCase) -> list[list[object]]:
     rows: list[list[object]] = []
     for row in run.table("held_out.csv"):
         answer = answers[int(row["number"])]
+        if answer["efficiency"] is None:  # it climbs so steeply that the atlas says nothing
+            continue
         rows.append([*(row[key] for key in PREDICTED[:-2]), f"{answer['efficiency']:.4f}", f"{answer['half_width']:.4f}"])
     return rows
 
@@ -168,7 +202,7 @@ def predict_loads(run: ValidationCase) -> list[list[object]]:
     names = {"added_mass": "added_mass_fraction", "damping": "damping"}
     rows: list[list[object]] = []
     one: list[object]
-    for row in (row for row in run.table("held_out.csv") if row["damping"]):
+    for row in (row for row in run.table("held_out.csv") if row["damping"] and float(row["tan_inclination"]) <= STEEPEST):
         answer, one = answers[int(row["number"])], [row["number"], row["throw_number"]]
         for name in LOADS:
             one += [row[name], row[f"{name}_half_width"], f"{answer[names[name]]:.4f}", f"{answer[f'{names[name]}_half_width']:.4f}"]
@@ -198,20 +232,6 @@ def judge_loads(run: ValidationCase) -> dict[str, object]:
             "doubled_from": f"{min(doubled):.2f}", "beyond": sum(throw >= min(doubled) for throw, _ in periods)}  # fmt: skip
 
 
-def predict_decisions(run: ValidationCase) -> list[list[object]]:
-    """Predictions of the layers that judged the surfaces of validation/decisions, those of them that lie inside of the atlas."""
-    folder = FOLDER.parent / "decisions"
-    layers = [row for row in read_table(folder / "held_out.csv") if row["surface"].startswith("24") and row["outcome"] in STEADY]
-    text = campaign_text(run.sections(str(folder / "base.toml")), {}, {}).replace("[sweep]", "[zip]")
-    for key, column in (("trough.throw_number", "throw_number"), ("trough.tan_vibration_angle", "tan_vibration_angle"), ("grains.rolling_friction", "rolling_friction")):
-        text += f'"{key}" = {toml_value([float(row[column]) for row in layers])}\n'
-    return [
-        [row["domain"], *(f"{float(row[key]):.4f}" for key in ("throw_number", "efficiency", "half_width", "theory")), f"{answer['efficiency']:.4f}", f"{answer['half_width']:.4f}"]
-        for row, answer in zip(layers, run.of_file("predict", text), strict=True)
-        if answer["inside"]
-    ]
-
-
 def judge(run: ValidationCase) -> None:
     for name in SAME:
         for row, plain in zip((r for r in run.table("same.csv") if r["layer"] == name), (r for r in run.table("same.csv") if r["layer"] == "plain"), strict=True):
@@ -220,29 +240,32 @@ def judge(run: ValidationCase) -> None:
                 run.check(f"{name}, throw number {row['throw_number']}", float(row["efficiency"]), float(plain["efficiency"]), width,
                           because="the same layer without dimensions; intervals of both")
     run.follows("predicted.csv", PREDICTED, predict(run))
-    judging = [row for row in run.table("predicted.csv") if int(row["number"]) >= SEEN]
+    judging = [row for row in run.table("predicted.csv") if float(row["tan_inclination"]) <= STEEPEST]
     value = {key: np.array([float(row[key]) for row in judging]) for key in PREDICTED[2:]}
     if run.control:
         value |= {key: np.roll(value[key], 1) for key in ("atlas", "atlas_half_width")}
     error = np.abs(value["efficiency"] - value["atlas"])
-    held = int(np.sum(error <= np.hypot(value["half_width"], value["atlas_half_width"])))
+    held = int(np.sum(error <= whole_of(value)))
     low, high = scipy.stats.binom.ppf([0.025, 0.975], len(judging), 0.95)
     run.between(f"layers within their intervals, of {len(judging)}", held, low, high, because="central 95 % of the binomial distribution; both intervals combined in squares")
     rms = {key: math.sqrt(float(np.mean((value["efficiency"] - value[key]) ** 2))) for key in ("atlas", "theory", "rolling_layer")}
     run.between("error of the atlas over that of the law (root mean squares)", rms["atlas"] / rms["rolling_layer"], 0, 1, because="else the layers have taught it nothing")
     for region, most in MOST.items():
         key, above, up_to = REGIONS[region]
-        inside = np.array([above < float(row[key]) <= up_to for row in judging])
-        run.between(f"error of the atlas, {region}, root mean square less the noise of the simulations", own_error(error[inside], value["half_width"][inside]), 0, most, because="what was wanted of the atlas")
+        inside = np.array([above < float(row[key]) <= up_to and int(row["number"]) < FIRST_WIDER for row in judging])
+        run.between(f"error of the atlas, {region} in the first domain, root mean square less the noise of the simulations", own_error(error[inside], value["half_width"][inside]), 0, most, because="what was wanted of the atlas")
     own = own_error(error, value["half_width"])
-    others = judge_decisions(run) | judge_deep_layers(run) | judge_loads(run)
+    feeders.judge(run)
+    others = other_layers.judge(run) | judge_loads(run)
     if not run.control:
-        every = run.table("predicted.csv")
-        all_held = sum(abs(float(row["efficiency"]) - float(row["atlas"])) <= math.hypot(float(row["half_width"]), float(row["atlas_half_width"])) for row in every)
-        least, most = scipy.stats.binom.ppf([0.025, 0.975], len(every), 0.95)
-        scores = {"all": len(every), "all_held": all_held, "all_least": f"{least:.0f}", "all_most": f"{most:.0f}", "layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
+        scores = {"layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, "least": f"{low:.0f}", "most": f"{high:.0f}", **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
         by_region(run)
         run.follows("scores.csv", ["score", "value"], [[name, one] for name, one in scores.items()])
+
+
+def whole_of(value: dict[str, Any]) -> Any:
+    """Half-widths of the difference between a layer and what the atlas says of it: both intervals, numerical errors of the layer included."""
+    return np.sqrt(value["half_width"] ** 2 + value["numerical_error"] ** 2 + value["atlas_half_width"] ** 2)
 
 
 def own_error(error: Any, half_width: Any) -> float:
@@ -255,54 +278,14 @@ def by_region(run: ValidationCase) -> None:
     every = run.table("predicted.csv")
     rows: list[list[object]] = []
     for region, (key, low, high) in REGIONS.items():
-        inside = [row for row in every if low < float(row[key]) <= high]
+        of_region = [row for row in every if (float(row["tan_inclination"]) > STEEPEST) == (region == "steep climb")]
+        inside = [row for row in of_region if low < float(row[key]) <= high]
         value = {name: np.array([float(row[name]) for row in inside]) for name in PREDICTED[5:]}
-        held = int(np.sum(np.abs(value["efficiency"] - value["atlas"]) <= np.hypot(value["half_width"], value["atlas_half_width"])))
+        held = int(np.sum(np.abs(value["efficiency"] - value["atlas"]) <= whole_of(value)))
         rms = [math.sqrt(float(np.mean((value["efficiency"] - value[model]) ** 2))) for model in ("atlas", "rolling_layer", "theory")]
         own = own_error(value["efficiency"] - value["atlas"], value["half_width"])
         rows.append([region, key, low, high, len(inside), held, *(f"{one:.3f}" for one in rms), f"{own:.3f}", f"{np.mean(value['atlas_half_width']):.3f}"])
     run.follows("regions.csv", ["region", "input", "above", "up_to", "layers", "held", "rms_atlas", "rms_rolling_layer", "rms_theory", "own_atlas", "half_width"], rows)
-
-
-def judge_decisions(run: ValidationCase) -> dict[str, object]:
-    """How well the atlas predicts the layers of validation/decisions; scores by name."""
-    run.follows("decisions.csv", DECISIONS, predict_decisions(run))
-    others = [{key: float(row[key]) for key in DECISIONS[1:]} for row in run.table("decisions.csv")]
-    inside = sum(abs(row["efficiency"] - row["atlas"]) <= math.hypot(row["half_width"], row["atlas_half_width"]) for row in others)
-    rms = {key: math.sqrt(float(np.mean([(row["efficiency"] - row[key]) ** 2 for row in others]))) for key in ("atlas", "theory")}
-    run.finding("we: the layers of validation/decisions lie within their intervals, too", bool(inside >= scipy.stats.binom.ppf(0.025, len(others), 0.95)),
-                f"{inside} of {len(others)}; root mean square {rms['atlas']:.3f}, of the point mass {rms['theory']:.3f}")
-    return {"decisions": len(others), "decisions_held": inside, "decisions_rms": f"{rms['atlas']:.3f}", "decisions_rms_theory": f"{rms['theory']:.3f}"}
-
-
-def predict_deep_layers(run: ValidationCase) -> list[list[object]]:
-    """Predictions of the grid of validation/deep_layers, of the stiffest grains of each layer that is deeper than 6 diameters."""
-    folder = FOLDER.parent / "deep_layers"
-    layers = [row for row in read_table(folder / "grid.csv") if row["modulus_MPa"] == "500" and row["outcome"] in STEADY]
-    zipped: dict[str, list[Any]] = {
-        "trough.throw_number": [float(row["throw_number"]) for row in layers], "layer.diameters": [float(row["depth"]) for row in layers],
-        "grains.rotation": [row["grains"] for row in layers], "grains.rolling_friction": [0.2 if row["grains"] == "rolling" else 0.0 for row in layers],
-    }  # fmt: skip
-    changes = {"grains.youngs_modulus": "500 MPa", "layer.height": None}
-    text = campaign_text(run.sections(str(folder / "base.toml")), changes, {}).replace("[sweep]", "[zip]")
-    text += "".join(f'"{key}" = {toml_value(values)}\n' for key, values in zipped.items())
-    return [
-        [*(row[key] for key in DEEP_LAYERS[:-2]), f"{answer['efficiency']:.4f}", f"{answer['half_width']:.4f}"]
-        for row, answer in zip(layers, run.of_file("predict", text), strict=True)
-        if answer["inside"]
-    ]
-
-
-def judge_deep_layers(run: ValidationCase) -> dict[str, object]:
-    """How well the atlas predicts the layers of validation/deep_layers; scores by name."""
-    run.follows("deep_layers.csv", DEEP_LAYERS, predict_deep_layers(run))
-    rows = [{key: float(row[key]) for key in DEEP_LAYERS[1:]} for row in run.table("deep_layers.csv")]
-    errors = [row["efficiency"] - row["atlas"] for row in rows]
-    held = sum(abs(error) <= math.hypot(row["half_width"], row["atlas_half_width"]) for error, row in zip(errors, rows, strict=True))
-    rms = math.sqrt(float(np.mean(np.square(errors))))
-    run.finding("we: the layers of validation/deep_layers of 12 and 20 diameters lie within their intervals", bool(held >= scipy.stats.binom.ppf(0.025, len(rows), 0.95)),
-                f"{held} of {len(rows)}; root mean square {rms:.3f}")
-    return {"deep_layers": len(rows), "deep_layers_held": held, "deep_layers_rms": f"{rms:.3f}"}
 
 
 def draw(run: ValidationCase) -> None:

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Simulates the layers of the wider domain, four at a time, and writes wider.csv each time.
+"""Simulates the layers of the wider domain, and adds them to the tables of the atlas.
 
-Layers that stand in the table are not simulated again, so that a later run goes on where this one stopped:
-wider.py --runs DIR --jobs 1 (with --quick only four layers).
+Each layer is a campaign of its own, because layers of one campaign would share the modulus of the one that needs the stiffest grains.
+The table is written after each; layers that stand in it are not simulated again, so that a later run goes on where this one stopped:
+wider.py --runs DIR --jobs 1 (with --quick only one layer).
 """
 
 import pathlib
@@ -21,95 +22,86 @@ from campaign_program import run_campaign  # noqa: E402
 from validation_case import ValidationCase, read_table  # noqa: E402
 
 TABLE = "wider.csv"
-AT_ONCE = 4  # layers, after which the table is written
 # How the layer lands, its depth in motion (twice the mean height of its centre of mass, in diameters), and what it cost.
 LANDING = ["effective_restitution", "landing_phase", "depth_in_motion", "core_seconds"]
 COLUMNS = ["campaign", *atlas.COLUMNS, *LANDING]
 # What differs from base.toml. Layers that cost more are left for another machine: they end as not-precise.
 CHANGES: dict[str, Any] = {"measure.max_core_time": "20 minutes"}
-# Sobol sequences and the layers that judge them by turns, the cheap ones first.
-ORDER = ["new0", "random0", "climbing0", "random1", "new1", "climbing1", "random2", "new2", "climbing2", "random3", "new3",
+# Sobol sequences and the layers that judge them by turns, of which the dear ones come last.
+ORDER = ["new0", "random0", "climbing0", "new1", "climbing1", "random1", "climbing2", "new2", "new3", "random2", "random3",
          "new_deep0", "random_deep0", "new_deep1"]  # fmt: skip
+DEAR = 150  # core-seconds that `plan` foresees of an own layer
 
 
-def stored() -> list[list[object]]:
+def stored() -> list[dict[str, str]]:
     path = FOLDER / TABLE
-    return [list(row.values()) for row in read_table(path)] if path.exists() else []
+    return read_table(path) if path.exists() else []
 
 
-def changes_of(name: str) -> dict[str, Any]:
-    """What a campaign changes in base.toml."""
-    return CHANGES | (atlas.PRECISE if name.startswith("random") and "deep" not in name else {})
+def missing(columns: design.Columns) -> list[design.Columns]:
+    """The layers that the table does not have, one by one."""
+    known = {atlas.numbers_of(row["throw_number"], row["depth"]) for row in stored()}
+    each = [{key: values[k : k + 1] for key, values in columns.items()} for k in range(len(columns["depth"]))]
+    return [one for one in each if atlas.layers_of(one)[0] not in known]
 
 
-def numbers_of(throw_number: object, depth: object) -> tuple[float, float]:
-    """What tells a layer from all others; ids differ from one version of the program to the next."""
-    return round(float(str(throw_number)), 4), round(float(str(depth)), 4)
+def is_dear(run: ValidationCase, layer: design.Columns) -> bool:
+    return float(run.of_file("plan", atlas.campaign_of(run, layer, CHANGES))["core_time_s"]) > DEAR
 
 
-def layers_of(columns: design.Columns) -> list[tuple[float, float]]:
-    return [numbers_of(*pair) for pair in zip(columns["throw_number"], columns["depth"], strict=True)]
-
-
-def missing(columns: design.Columns) -> design.Columns:
-    """The layers that the table does not have."""
-    known = {numbers_of(row["throw_number"], row["depth"]) for row in read_table(FOLDER / TABLE)} if (FOLDER / TABLE).exists() else set()
-    return {name: values[[layer not in known for layer in layers_of(columns)]] for name, values in columns.items()}
-
-
-def simulate(run: ValidationCase, name: str, columns: design.Columns) -> list[list[object]]:
-    """Rows of COLUMNS of the layers that are done."""
-    changes = changes_of(name)
-    todo = missing(columns)
-    part = {key: values[:AT_ONCE] for key, values in todo.items()}
-    if not len(part["depth"]):
-        return []
-    folder = run.runs / f"{name}-{len(todo['depth'])}"
-    rows = run_campaign(run.program, folder, atlas.campaign_of(run, part, changes), run.jobs)
-    return [[name, *atlas.row_of(run, row), *load_of(folder, row), *landing_of(folder, row)] for row in rows]
-
-
-def load_of(folder: pathlib.Path, row: dict[str, str]) -> list[str]:
-    """What a layer did to its trough; nothing of one without a mean."""
-    return atlas.load_of(folder, row["case"]) if row["efficiency"] else [""] * len(atlas.LOAD)
+def simulate(run: ValidationCase, name: str, layer: design.Columns) -> list[object]:
+    """A row of COLUMNS."""
+    folder = run.runs / f"{name}-{layer['throw_number'][0]:.4f}"
+    # What all layers of a campaign have in common is no column of its table; of one layer that is everything.
+    given = {key: str(values[0]) for key, values in design.keys_of(layer).items()}
+    row = given | run_campaign(run.program, folder, atlas.campaign_of(run, layer, CHANGES), run.jobs)[0]
+    load = atlas.load_of(folder, row["case"]) if row["efficiency"] else [""] * len(atlas.LOAD)
+    return [name, *atlas.row_of(run, row), *load, *landing_of(folder, row)]
 
 
 def landing_of(folder: pathlib.Path, row: dict[str, str]) -> list[str]:
-    """The values of LANDING."""
-    with h5py.File(folder / "cases" / row["case"] / "result.h5") as file:
+    """The values of LANDING; nothing of a case that failed."""
+    result = folder / "cases" / row["case"] / "result.h5"
+    if not result.exists():
+        return [""] * len(LANDING)
+    with h5py.File(result) as file:
         case, phases = file["case"], file["phases"]
         height = np.mean([np.mean(phases[packing]["height"]) for packing in phases])
         depth = 2000 * height / design.DIAMETER
         return [f"{float(case['effective_restitution']):.4f}", f"{float(case['landing_phase']):.4f}", f"{depth:.4f}", f"{float(case['core_time']):.0f}"]
 
 
-def predict(run: ValidationCase) -> None:
-    """What the atlas says of the layers of the table, beyond its ranges."""
-    answers: dict[tuple[float, float], dict[str, Any]] = {}
-    for name, columns in design.wider_campaigns().items():
-        text = atlas.campaign_of(run, columns, changes_of(name))
-        answers |= dict(zip(layers_of(columns), run.of_file("predict", text), strict=True))
-    rows = read_table(FOLDER / TABLE)
-    keys = ["campaign", "case", "outcome", "throw_number", "tan_inclination", "amplitude", "depth", "theory", "rolling_layer", "efficiency", "half_width"]
-    found = [answers[numbers_of(row["throw_number"], row["depth"])] for row in rows]
-    values = [[*(row[key] for key in keys), *(f"{answer[key]:.4f}" for key in ("efficiency", "half_width"))] for row, answer in zip(rows, found, strict=True)]
-    run.write_table("wider_predicted.csv", [*keys, "atlas", "atlas_half_width"], values)
-
-
 def simulate_all(run: ValidationCase) -> None:
-    """The layers that are not in the table; with --quick only four."""
+    """The layers that are not in the table; with --quick only one."""
     campaigns = design.wider_campaigns()
-    for name in ORDER:
-        while rows := simulate(run, name, campaigns[name]):
-            run.write_table(TABLE, COLUMNS, [*stored(), *rows])
+    for name, takes_dear in [(name, dear) for dear in (False, True) for name in ORDER]:
+        for layer in missing(campaigns[name]):
+            if not takes_dear and not name.startswith("random") and is_dear(run, layer):
+                continue
+            rows = [[row[column] for column in COLUMNS] for row in stored()]
+            run.write_table(TABLE, COLUMNS, [*rows, simulate(run, name, layer)])
             if run.quick:
                 return
+
+
+def add_to_the_atlas(run: ValidationCase) -> None:
+    """Puts the layers into the tables of the atlas, whose first layers stay."""
+
+    def first(table: str) -> list[dict[str, str]]:
+        wider = {atlas.numbers_of(row["throw_number"], row["depth"]) for row in stored()}
+        return [row for row in run.table(table) if atlas.numbers_of(row["throw_number"], row["depth"]) not in wider]
+
+    def cells(row: dict[str, str]) -> list[object]:
+        return [row[column] for column in atlas.COLUMNS]
+
+    own = [cells(row) for table in ("layers.csv", "apart.csv") for row in first(table)]
+    atlas.write_layers(run, own, [(int(row["number"]), cells(row)) for row in first("held_out.csv")])
 
 
 def main() -> None:
     run = ValidationCase(FOLDER)
     simulate_all(run)
-    predict(run)
+    add_to_the_atlas(run)
 
 
 if __name__ == "__main__":
