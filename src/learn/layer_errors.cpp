@@ -73,11 +73,12 @@ class LayerOfTheCube {
     std::map<std::string, double> const& fixed_;
 };
 
-/// Velocity efficiency of the atlas less that of the point mass; nothing where one of them has none, and 0
-/// where the atlas knows nothing.
+/// Velocity efficiency of the atlas less that of the point mass; nothing where one of them has none or the
+/// atlas has no such layers, and 0 where it knows nothing.
 std::optional<double> error_of_the_mass(atlas::Place const& given) {
     if (atlas::is_far_outside(given)) return 0;
     atlas::Place const place = atlas::within_ranges(given);
+    if (!atlas::outside_together(place).empty()) return {};
     auto const layer = atlas::efficiency_at(place);
     theory::Motion const mass =
         theory::solve(theory::PointMass{place[atlas::throw_number_input], place[atlas::tan_vibration_input],

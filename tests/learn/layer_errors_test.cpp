@@ -47,6 +47,17 @@ std::vector<MeasuredSpeed> settings_at(std::vector<double> const& throw_numbers,
     return speeds;
 }
 
+/// A layer at random, such as the atlas has.
+atlas::Place random_layer(std::mt19937_64& random) {
+    atlas::Place place;
+    do {
+        place.clear();
+        for (atlas::SurfaceInput const& input : atlas::inputs())
+            place.push_back(input.value_at(std::uniform_real_distribution<double>(0, 1)(random)));
+    } while (!atlas::outside_together(place).empty());
+    return place;
+}
+
 /// Speeds of a machine and a layer at random, and the friction of the layer.
 struct DataSet {
     std::vector<MeasuredSpeed> speeds;
@@ -55,9 +66,7 @@ struct DataSet {
 
 DataSet data_set(Truth truth, std::vector<double> const& throw_numbers, std::mt19937_64& random) {
     std::normal_distribution<double> normal;
-    atlas::Place place;
-    for (atlas::SurfaceInput const& input : atlas::inputs())
-        place.push_back(input.value_at(std::uniform_real_distribution<double>(0, 1)(random)));
+    atlas::Place place = random_layer(random);
     double const beta = std::atan(place[atlas::tan_vibration_input]);
     double const alpha = std::atan(place[atlas::tan_inclination_input]);
     DataSet made{settings_at(throw_numbers, beta, alpha), place[atlas::friction_input]};
@@ -112,10 +121,12 @@ Eigen::MatrixXd mean_squares(std::vector<double> const& throw_numbers) {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(count, count);
     for (int layer = 0; layer < layers; ++layer) {
         atlas::Place place;
-        for (atlas::SurfaceInput const& input : atlas::inputs())
-            place.push_back(input.value_at(std::uniform_real_distribution<double>(0, 1)(random)));
-        place[1] = std::tan(30 * degree);
-        place[2] = 0;
+        do {
+            for (place.clear(); auto const& input : atlas::inputs())
+                place.push_back(input.value_at(std::uniform_real_distribution<double>(0, 1)(random)));
+            place[1] = std::tan(30 * degree);
+            place[2] = 0;
+        } while (!atlas::outside_together(place).empty());
         Eigen::VectorXd errors(count);
         for (Eigen::Index i = 0; i < count; ++i) {
             place[0] = throw_numbers[static_cast<std::size_t>(i)];
