@@ -22,7 +22,7 @@ std::vector<LayerMotion> random_layers() {
     return layers;
 }
 
-// The 76 random layers of validation/atlas inside of its ranges are none of those that are asked. 65 modes
+// The 76 random layers of validation/atlas inside of its ranges are none of those that are asked. 57 modes
 // are right; where the five layers agree, more often than where they do not. The table is stored, so that the
 // numbers are exact.
 TEST(LayerMode, OfRandomLayersIsMostlyRight) {

@@ -20,7 +20,9 @@ class PythonCampaign(EndToEndTest):
         campaign = self.campaign()
         self.assertEqual(list(campaign.plan()["throw_number"]), [1.5, 2.0])
         self.assertEqual(set(campaign.plan()["outcome"]), {"open"})
-        self.assertEqual([case["outside"] for case in campaign.predict()], [["depth"], ["depth"]])
+        self.assertEqual([case["outside"] for case in campaign.predict()], [[], []])
+        fast = self.write_campaign(None, {"trough.throw_number": [3.5]}, name="fast.toml")
+        self.assertEqual([case["outside"] for case in vibrotrough.Campaign(fast, self.folder / "fast", PROGRAM).predict()], [["throw_number"]])
         with self.assertRaisesRegex(vibrotrough.ProgramError, "is not a campaign folder"):
             campaign.table()
         events = []

@@ -240,7 +240,7 @@ def judge(run: ValidationCase) -> None:
                 run.check(f"{name}, throw number {row['throw_number']}", float(row["efficiency"]), float(plain["efficiency"]), width,
                           because="the same layer without dimensions; intervals of both")
     run.follows("predicted.csv", PREDICTED, predict(run))
-    judging = [row for row in run.table("predicted.csv") if float(row["tan_inclination"]) <= STEEPEST]
+    judging = judging_layers(run)
     value = {key: np.array([float(row[key]) for row in judging]) for key in PREDICTED[2:]}
     if run.control:
         value |= {key: np.roll(value[key], 1) for key in ("atlas", "atlas_half_width")}
@@ -261,6 +261,10 @@ def judge(run: ValidationCase) -> None:
         scores = {"layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, "least": f"{low:.0f}", "most": f"{high:.0f}", **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
         by_region(run)
         run.follows("scores.csv", ["score", "value"], [[name, one] for name, one in scores.items()])
+
+
+def judging_layers(run: ValidationCase) -> list[Row]:
+    return [row for row in run.table("predicted.csv") if float(row["tan_inclination"]) <= STEEPEST]
 
 
 def whole_of(value: dict[str, Any]) -> Any:
@@ -289,7 +293,7 @@ def by_region(run: ValidationCase) -> None:
 
 
 def draw(run: ValidationCase) -> None:
-    rows = run.table("predicted.csv")
+    rows = judging_layers(run)
     number = {key: np.array([float(row[key]) for row in rows]) for key in ("efficiency", "half_width", "atlas", "atlas_half_width", "theory")}
     figure, axes = style.new_figure(layout="constrained")
     axes.plot([-0.2, 1.2], [-0.2, 1.2], color=style.GREY, linewidth=0.8)
